@@ -1,0 +1,66 @@
+#include "base/progress.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "base/error.h"
+
+namespace lw {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void note_signal(int) { interrupted = 1; }
+
+}  // namespace
+
+void watch_for_interrupt() {
+    std::signal(SIGINT, note_signal);
+    std::signal(SIGTERM, note_signal);
+}
+
+void check_interrupt() {
+    if (interrupted) throw Error("interrupted: nothing was written");
+}
+
+Progress::Progress(std::string what, uint64_t total)
+    : what_(std::move(what)),
+      total_(total ? total : 1),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(std::chrono::steady_clock::now()),
+      last_draw_(start_) {}
+
+Progress::~Progress() {
+    const uint64_t done = done_.load();
+    if (done) draw(done, true);
+}
+
+void Progress::step(uint64_t units) {
+    check_interrupt();
+    const uint64_t done = done_ += units;
+    std::unique_lock lock(drawing_, std::try_to_lock);
+    if (!lock) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_draw_ < std::chrono::milliseconds(100)) return;
+    last_draw_ = now;
+    draw(done, false);
+}
+
+void Progress::draw(uint64_t done, bool last) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double rate = double(done) / (seconds > 1e-6 ? seconds : 1e-6);
+    const double left = done < total_ ? double(total_ - done) / (rate > 0 ? rate : 1) : 0;
+    const int percent = int(100.0 * double(done < total_ ? done : total_) / double(total_));
+    if (terminal_) {
+        std::fprintf(stderr, "\r%-12s %3d %%  %.3g/s  %.0f s left \x1b[K%s", what_.c_str(), percent, rate, left,
+                     last ? "\n" : "");
+        std::fflush(stderr);
+    } else if (seconds > 1 && percent / 10 > printed_tenths_) {
+        printed_tenths_ = percent / 10;
+        std::fprintf(stderr, "%s %d %% (%.3g/s, %.0f s left)\n", what_.c_str(), percent, rate, left);
+    }
+}
+
+}  // namespace lw

@@ -1,0 +1,197 @@
+#include "file/map_file.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/random.h"
+
+namespace lw {
+namespace {
+
+constexpr std::array<char, 8> magic{'L', 'W', 'P', 'H', 'O', 'T', 'O', 'N'};
+constexpr uint32_t version = 1;
+constexpr size_t section_count = 7;
+
+/// The fixed head of the file; sections follow in this order, each `bytes` long.
+struct Header {
+    std::array<char, 8> magic;
+    uint32_t version;
+    uint32_t sections;
+    uint64_t checksum;  // of everything after this field
+    uint64_t scene_hash;
+    uint64_t photons_wanted;
+    uint64_t photons_stored;
+    uint64_t seed;
+    float radius;
+    float neighbour_angle_deg;
+    float flux_scale;
+    uint32_t reserved;
+    std::array<uint64_t, section_count> bytes;
+};
+static_assert(sizeof(Header) == 128);
+constexpr size_t checked_from = offsetof(Header, scene_hash);
+
+/// 64-bit hash in the order of the bytes; the last word is padded with zeros.
+class Checksum {
+  public:
+    void add(const void* bytes, size_t size) {
+        const auto* p = static_cast<const unsigned char*>(bytes);
+        for (; size >= 8; p += 8, size -= 8) add_word(p, 8);
+        if (size) add_word(p, size);
+    }
+    uint64_t value() const { return mix64(state_); }
+
+  private:
+    void add_word(const unsigned char* p, size_t size) {
+        uint64_t word = 0;
+        std::memcpy(&word, p, size);
+        state_ = (state_ ^ word) * 0x9fb21c651e98df25ull;
+        state_ ^= state_ >> 32;
+    }
+    uint64_t state_ = 0x6c756d656e77616cull;
+};
+
+/// Calls visit(array) for the sections in file order; Map is PhotonMap or const PhotonMap.
+template <class Map, class Visit>
+void for_each_section(Map& map, const Visit& visit) {
+    visit(map.emitted);
+    visit(map.triangle_maps);
+    visit(map.grids);
+    visit(map.cell_starts);
+    visit(map.places);
+    visit(map.fluxes);
+    visit(map.directions);
+}
+
+template <class T>
+size_t byte_size(const std::vector<T>& v) {
+    return v.size() * sizeof(T);
+}
+
+uint64_t checksum_of(const Header& header, const PhotonMap& map) {
+    Checksum sum;
+    sum.add(reinterpret_cast<const char*>(&header) + checked_from, sizeof header - checked_from);
+    for_each_section(map, [&](const auto& section) { sum.add(section.data(), byte_size(section)); });
+    return sum.value();
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
+    throw Error(path.string() + ": " + what + "; bake the map again");
+}
+
+bool all_finite(const SurfaceGrid& g) {
+    const auto finite = [](vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+    return finite(g.origin) && finite(g.u_axis) && finite(g.v_axis) && finite(g.normal) && finite(g.quantum) &&
+           std::isfinite(g.h_origin) && std::isfinite(g.cell_size) && g.cell_size > 0;
+}
+
+void check_grids(const std::filesystem::path& path, const PhotonMap& map) {
+    uint64_t cells = 0;
+    for (size_t i = 0; i < map.grids.size(); ++i) {
+        const SurfaceGrid& g = map.grids[i];
+        const uint64_t here = uint64_t(g.columns) * g.rows;
+        if (!all_finite(g) || here == 0 || g.first_cell != cells || here > map.cell_starts.size() - cells)
+            refuse(path, "grid " + std::to_string(i) + " is not valid");
+        cells += here;
+    }
+    if (cells + 1 != map.cell_starts.size()) refuse(path, "cells and grids do not agree");
+    for (size_t c = 0; c + 1 < map.cell_starts.size(); ++c)
+        if (map.cell_starts[c] > map.cell_starts[c + 1]) refuse(path, "cell " + std::to_string(c) + " ends before it starts");
+    if (map.cell_starts.back() != map.places.size()) refuse(path, "cells and references do not agree");
+}
+
+void check_indices(const std::filesystem::path& path, const PhotonMap& map, const Scene& scene) {
+    if (map.cell_starts.empty()) refuse(path, "it has no cells");
+    if (map.emitted.size() != scene.lights.size()) refuse(path, "the number of lamps does not agree with the scene");
+    if (map.triangle_maps.size() != 2 * scene.triangles.size()) refuse(path, "the number of triangles does not agree with the scene");
+    if (map.fluxes.size() != map.places.size() || (map.has_directions() && map.directions.size() != map.places.size()))
+        refuse(path, "the record arrays differ in length");
+    check_grids(path, map);
+    for (uint index : map.triangle_maps)
+        if (index != no_map && index >= map.grids.size()) refuse(path, "a triangle refers to grid " + std::to_string(index) + " which does not exist");
+    for (const PhotonPlace& place : map.places)
+        if (light_of(place) >= scene.lights.size()) refuse(path, "a photon refers to lamp " + std::to_string(light_of(place)) + " which does not exist");
+}
+
+Header read_header(std::ifstream& in, const std::filesystem::path& path, uint64_t file_size) {
+    Header header{};
+    if (file_size < sizeof header || !in.read(reinterpret_cast<char*>(&header), sizeof header)) refuse(path, "too short for a photon map");
+    if (header.magic != magic) throw Error(path.string() + ": not a Lumenwalk photon map");
+    if (header.version != version || header.sections != section_count)
+        refuse(path, "written by another version (" + std::to_string(header.version) + ", this program reads " + std::to_string(version) + ")");
+    uint64_t left = file_size - sizeof header;
+    for (uint64_t bytes : header.bytes) {
+        if (bytes > left) refuse(path, "it is cut short or its section sizes are wrong");
+        left -= bytes;
+    }
+    if (left) refuse(path, "it has bytes after its last section");
+    if (!(header.radius > 0) || !std::isfinite(header.radius) || !(header.flux_scale > 0) || !std::isfinite(header.flux_scale))
+        refuse(path, "its radius or flux scale is not valid");
+    return header;
+}
+
+}  // namespace
+
+void save_photon_map(const std::filesystem::path& path, const PhotonMap& map) {
+    Header header{magic, version, section_count, 0, map.scene_hash, map.settings.photons, map.stored_photons, map.settings.seed,
+                  map.settings.radius, map.settings.neighbour_angle_deg, map.flux_scale, 0, {}};
+    size_t s = 0;
+    for_each_section(map, [&](const auto& section) { header.bytes[s++] = byte_size(section); });
+    header.checksum = checksum_of(header, map);
+
+    std::filesystem::path part = path;
+    part += ".part" + std::to_string(getpid());
+    std::ofstream out(part, std::ios::binary);
+    if (!out) throw Error(path.string() + ": cannot be written here; choose another place with -o");
+    out.write(reinterpret_cast<const char*>(&header), sizeof header);
+    for_each_section(map, [&](const auto& section) {
+        out.write(reinterpret_cast<const char*>(section.data()), std::streamsize(byte_size(section)));
+    });
+    out.close();
+    std::error_code failure;
+    if (out) std::filesystem::rename(part, path, failure);
+    if (!out || failure) {
+        std::error_code ignored;
+        std::filesystem::remove(part, ignored);
+        throw Error(path.string() + ": could not be written completely (disk full?)");
+    }
+}
+
+PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene) {
+    std::error_code failure;
+    const uint64_t file_size = std::filesystem::file_size(path, failure);
+    std::ifstream in(path, std::ios::binary);
+    if (failure || !in) throw Error(path.string() + ": no photon map here; make one with lumenwalk-bake");
+    const Header header = read_header(in, path, file_size);
+    if (header.scene_hash != scene.content_hash)
+        throw Error(path.string() + ": the scene " + scene.path.filename().string() + " has changed since this map was baked, or the map is of another scene; bake it again");
+
+    PhotonMap map;
+    map.scene_hash = header.scene_hash;
+    map.settings = {header.photons_wanted, header.radius, header.neighbour_angle_deg, header.seed};
+    map.stored_photons = header.photons_stored;
+    map.flux_scale = header.flux_scale;
+    size_t s = 0;
+    for_each_section(map, [&](auto& section) {
+        const uint64_t bytes = header.bytes[s++];
+        if (bytes % sizeof(section[0])) refuse(path, "section " + std::to_string(s) + " is not a whole number of records");
+        section.resize(bytes / sizeof(section[0]));
+        if (!in.read(reinterpret_cast<char*>(section.data()), std::streamsize(bytes))) refuse(path, "it could not be read to its end");
+    });
+    if (checksum_of(header, map) != header.checksum) refuse(path, "the map file has changed since it was written (checksum)");
+    check_indices(path, map, scene);
+    return map;
+}
+
+std::filesystem::path default_map_path(const std::filesystem::path& scene) {
+    std::filesystem::path path = scene;
+    return path.replace_extension(".pmap");
+}
+
+}  // namespace lw

@@ -1,0 +1,37 @@
+#include "gather/gather_pass.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/error.h"
+#include "gather.comp.spv.h"
+
+namespace lw {
+namespace {
+
+ShaderConstants with_mode(ShaderConstants constants, GatherSettings settings) {
+    constants[constant_gather_mode] = settings.mode;
+    constants[constant_heap_size] = settings.mode == 0 ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
+    return constants;
+}
+
+}  // namespace
+
+GatherPass::GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings)
+    : resident_(&resident), picture_(&picture) {
+    if (settings.mode == 0 && settings.neighbours > PhotonEstimator::heap_size)
+        throw Error("gather: exact search takes at most " + std::to_string(PhotonEstimator::heap_size) + " neighbours");
+    const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), picture.descriptors().layout()};
+    layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(Frame));
+    pipeline_ = make_compute_pipeline(device, *layout_, gather_comp, with_mode(resident.constants(), settings));
+}
+
+void GatherPass::record(vk::CommandBuffer commands, const Frame& frame) const {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+    const vk::DescriptorSet sets[] = {resident_->descriptors().handle(), picture_->descriptors().handle()};
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
+    commands.pushConstants<Frame>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, frame);
+    commands.dispatch((frame.width + 7) / 8, (frame.height + 7) / 8, 1);
+}
+
+}  // namespace lw

@@ -1,0 +1,23 @@
+// Light at what each pixel sees, from the photon map: radiance, illuminance, shading normal and depth.
+#pragma once
+#include "gather/picture.h"
+#include "gather/resident.h"
+#include "maps/estimate.h"
+
+namespace lw {
+
+class GatherPass {
+  public:
+    /// Throws Error when the exact mode is asked for more neighbours than PhotonEstimator::heap_size.
+    GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings);
+    /// Reads the visibility texture, writes the picture; for compute shaders and copies after a barrier.
+    void record(vk::CommandBuffer commands, const Frame& frame) const;
+
+  private:
+    const Resident* resident_;
+    const Picture* picture_;
+    vk::UniquePipelineLayout layout_;
+    vk::UniquePipeline pipeline_;
+};
+
+}  // namespace lw

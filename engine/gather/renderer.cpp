@@ -1,0 +1,157 @@
+#include "gather/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/commands.h"
+#include "image/tonemap.h"
+
+namespace lw {
+namespace {
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+/// Points of the R2 sequence around 0 (Roberts 2018), in pixels.
+vec2 pixel_offset(uint index, uint count) {
+    if (count == 1) return vec2(0);
+    const double x = 0.5 + double(index) * 0.7548776662466927;
+    const double y = 0.5 + double(index) * 0.5698402909980532;
+    return vec2(float(x - std::floor(x) - 0.5), float(y - std::floor(y) - 0.5));
+}
+
+PassTimes median_times(const std::vector<PassTimes>& frames) {
+    std::vector<double> visibility, gather;
+    for (const PassTimes& t : frames) {
+        visibility.push_back(t.visibility_ms);
+        gather.push_back(t.gather_ms);
+    }
+    return {median(visibility), median(gather), 0};
+}
+
+}  // namespace
+
+Frame make_frame(const Camera& camera, vk::Extent2D size, uint index, uint count) {
+    Frame frame{};
+    frame.camera_position = camera.position;
+    frame.camera_right = camera.rotation[0];
+    frame.camera_up = camera.rotation[1];
+    frame.camera_back = camera.rotation[2];
+    const float vertical = 1.0f / std::tan(0.5f * camera.yfov);
+    frame.projection = vec2(vertical * float(size.height) / float(size.width), vertical);
+    frame.jitter = pixel_offset(index, count) * 2.0f / vec2(float(size.width), float(size.height));
+    frame.near = camera.near;
+    frame.width = size.width;
+    frame.height = size.height;
+    frame.sample_index = index;
+    frame.sample_weight = 1.0f / float(count);
+    return frame;
+}
+
+Renderer::Renderer(const Device& device, const Resident& resident, uint width, uint height)
+    : device_(&device),
+      resident_(&resident),
+      width_(width),
+      height_(height),
+      visibility_(device, resident, {width, height}),
+      picture_(device, visibility_.texture()),
+      tonemap_(device, resident, picture_) {}
+
+void Renderer::choose_gather(GatherSettings settings) {
+    const bool same = gather_ && settings.mode == gather_settings_.mode &&
+                      (settings.mode != 0 || settings.neighbours == gather_settings_.neighbours);
+    if (!same) gather_ = std::make_unique<GatherPass>(*device_, *resident_, picture_, settings);
+    gather_settings_ = settings;
+}
+
+Rendering Renderer::render(const Camera& camera, const RenderSettings& settings) {
+    choose_gather(settings.gather);
+    std::vector<PassTimes> frames;
+    for (uint i = 0; i < std::max(1u, settings.frames); ++i) frames.push_back(render_frame(camera, settings));
+    Rendering result;
+    result.times = median_times(frames);
+    result.image = read_image(visibility_.read_samples());
+    result.exposure_ev = settings.exposure_ev ? *settings.exposure_ev : auto_exposure_ev(result.image);
+    std::vector<double> tonemap_ms;
+    for (size_t i = 0; i < frames.size(); ++i) tonemap_ms.push_back(render_screen(result.exposure_ev));
+    result.times.tonemap_ms = median(tonemap_ms);
+    result.screen = read_screen();
+    return result;
+}
+
+/// One submission per sample, so that none lasts long enough to trip a driver's watchdog.
+PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& settings) const {
+    const uint samples = std::max(1u, settings.samples);
+    const Timestamps times(*device_, 3);
+    PassTimes sum;
+    for (uint i = 0; i < samples; ++i) {
+        Frame frame = make_frame(camera, {width_, height_}, i, samples);
+        frame.neighbours = std::max(1u, settings.gather.neighbours);
+        frame.max_radius = resident_->max_radius();
+        frame.inverse_flux_scale = resident_->inverse_flux_scale();
+        frame.triangle_limit = resident_->triangle_count();
+        submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
+            using Stage = vk::PipelineStageFlagBits2;
+            times.reset(commands);
+            times.write(commands, 0);
+            stage_barrier(commands, Stage::eAllCommands, Stage::eAllCommands);
+            visibility_.record(commands, frame);
+            times.write(commands, 1);
+            gather_->record(commands, frame);
+            times.write(commands, 2);
+        });
+        const std::vector<double> ms = times.intervals_ms();
+        sum.visibility_ms += ms[0];
+        sum.gather_ms += ms[1];
+    }
+    return sum;
+}
+
+double Renderer::render_screen(float exposure_ev) const {
+    const Timestamps times(*device_, 2);
+    submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
+        using Stage = vk::PipelineStageFlagBits2;
+        times.reset(commands);
+        stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
+        times.write(commands, 0);
+        tonemap_.record(commands, {width_, height_, exposure_ev});
+        times.write(commands, 1);
+    });
+    return times.intervals_ms()[0];
+}
+
+Image Renderer::read_image(const std::vector<VisibleSample>& visible) const {
+    Image image{int(width_), int(height_), {}};
+    const size_t count = image.pixel_count();
+    const auto light = read_back<vec4>(*device_, picture_.radiance(), count);
+    const auto geometry = read_back<vec4>(*device_, picture_.normal_depth(), count);
+    const auto add_plane = [&](const char* name, const auto& value) {
+        std::vector<float>& plane = image.add(name);
+        for (size_t i = 0; i < count; ++i) plane[i] = value(i);
+    };
+    add_plane("R", [&](size_t i) { return light[i].x; });
+    add_plane("G", [&](size_t i) { return light[i].y; });
+    add_plane("B", [&](size_t i) { return light[i].z; });
+    add_plane("illuminance", [&](size_t i) { return light[i].w; });
+    add_plane("depth", [&](size_t i) { return geometry[i].w; });
+    add_plane("normal.X", [&](size_t i) { return geometry[i].x; });
+    add_plane("normal.Y", [&](size_t i) { return geometry[i].y; });
+    add_plane("normal.Z", [&](size_t i) { return geometry[i].z; });
+    add_plane("triangle", [&](size_t i) {
+        return visible[i].triangle == no_triangle ? -1.0f : float(visible[i].triangle);
+    });
+    return image;
+}
+
+Rgb8Image Renderer::read_screen() const {
+    Rgb8Image screen{int(width_), int(height_), {}};
+    const auto codes = read_back<uint32_t>(*device_, picture_.screen(), screen.pixel_count());
+    screen.rgb.reserve(3 * codes.size());
+    for (uint32_t code : codes)
+        for (int shift : {0, 8, 16}) screen.rgb.push_back(uint8_t(code >> shift & 0xffu));
+    return screen;
+}
+
+}  // namespace lw

@@ -1,0 +1,64 @@
+// A view of a resident scene: visibility, gather and tone mapping in order, then pixels back on the CPU.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "gather/gather_pass.h"
+#include "gather/tonemap_pass.h"
+#include "gather/visibility_pass.h"
+#include "image/image.h"
+#include "image/rgb8_image.h"
+
+namespace lw {
+
+struct RenderSettings {
+    GatherSettings gather;
+    std::optional<float> exposure_ev;  // EV100; none: from the picture
+    uint samples = 1;                  // jittered views averaged per pixel
+    uint frames = 1;                   // how often the same picture is made, for the times
+};
+
+/// Medians over the frames, from GPU timestamps.
+struct PassTimes {
+    double visibility_ms = 0;
+    double gather_ms = 0;
+    double tonemap_ms = 0;
+};
+
+struct Rendering {
+    Image image;  // R, G, B cd/m2; illuminance lx; depth m along -Z, 0: nothing seen; normal.X .Y .Z; triangle or -1
+    Rgb8Image screen;
+    float exposure_ev = 0;
+    PassTimes times;
+};
+
+class Renderer {
+  public:
+    /// Device and resident scene must outlive it. Throws Error when the size is beyond the device. width, height > 0.
+    Renderer(const Device& device, const Resident& resident, uint width, uint height);
+    /// Throws Error when the exact mode is asked for too many neighbours.
+    Rendering render(const Camera& camera, const RenderSettings& settings);
+    /// What the pixels saw in the last sample of the last render.
+    std::vector<VisibleSample> visible_samples() const { return visibility_.read_samples(); }
+
+  private:
+    void choose_gather(GatherSettings settings);
+    PassTimes render_frame(const Camera& camera, const RenderSettings& settings) const;
+    double render_screen(float exposure_ev) const;
+    Image read_image(const std::vector<VisibleSample>& visible) const;
+    Rgb8Image read_screen() const;
+
+    const Device* device_;
+    const Resident* resident_;
+    uint width_, height_;
+    VisibilityPass visibility_;
+    Picture picture_;
+    TonemapPass tonemap_;
+    GatherSettings gather_settings_;
+    std::unique_ptr<GatherPass> gather_;
+};
+
+/// The push constants of sample `index` of `count` of a view; jitter inside the pixel when count > 1.
+Frame make_frame(const Camera& camera, vk::Extent2D size, uint index, uint count);
+
+}  // namespace lw

@@ -1,0 +1,58 @@
+// A scene and its photon map in GPU memory, as descriptor set 0 of all passes (shaders/frame.h).
+// The arrays are uploaded as they are; photon records beyond maxStorageBufferRange are split over several buffers.
+#pragma once
+#include <array>
+#include <span>
+
+#include "gpu/pipeline.h"
+#include "maps/photon_map.h"
+#include "scene/scene.h"
+#include "shaders/frame.h"
+
+namespace lw {
+
+using ShaderConstants = std::array<uint32_t, constant_count>;
+
+struct ResidentSettings {
+    uint64_t buffer_range = 0;  // bytes of one storage buffer; 0: what the device allows. For tests of the splitting.
+};
+
+class Resident {
+  public:
+    /// Uploads everything; all lights at factor 1. A map without triangle_maps means no photons.
+    /// Throws Error saying which array does not fit, and what would.
+    Resident(const Device& device, const Scene& scene, const PhotonMap& map, ResidentSettings settings = {});
+
+    /// Dims the lights: one factor per light of the scene, >= 0. Rewrites one small buffer.
+    void set_light_factors(std::span<const float> factors);
+
+    const DescriptorSet& descriptors() const { return descriptors_; }
+    /// Specialization constants of the scene; gather_mode and heap_size are left to the pass.
+    const ShaderConstants& constants() const { return constants_; }
+    uint triangle_count() const { return triangle_count_; }
+    float max_radius() const { return max_radius_; }                  // m
+    float inverse_flux_scale() const { return inverse_flux_scale_; }
+    uint64_t bytes() const;  // GPU memory of all buffers
+
+  private:
+    void choose_constants(const Scene& scene, const PhotonMap& map);
+    void upload_scene(const Scene& scene);
+    void upload_map(const PhotonMap& map);
+    template <class T>
+    void upload_array(uint binding, std::span<const T> values, const std::string& what);
+    template <class T>
+    void upload_chunks(uint binding, std::span<const T> values, uint shift, const std::string& what);
+
+    const Device* device_;
+    uint64_t buffer_range_;
+    ShaderConstants constants_{};
+    uint triangle_count_;
+    float max_radius_;
+    float inverse_flux_scale_;
+    std::vector<vec3> intensities_;
+    DescriptorSet descriptors_;
+    std::vector<Buffer> buffers_;
+    Buffer light_states_;
+};
+
+}  // namespace lw

@@ -1,0 +1,36 @@
+// Rasterises the scene: per pixel the triangle that is seen and where on it. Cut-outs and glass let the view through.
+#pragma once
+#include "gather/resident.h"
+#include "gpu/texture.h"
+
+namespace lw {
+
+/// What one pixel sees, as the visibility texture holds it.
+struct VisibleSample {
+    uint triangle = no_triangle;
+    vec2 barycentrics{0};  // weights of the second and third vertex
+    uint unused = 0;
+};
+static_assert(sizeof(VisibleSample) == 16);
+
+class VisibilityPass {
+  public:
+    VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size);
+    /// Afterwards texture() is readable by compute shaders.
+    void record(vk::CommandBuffer commands, const Frame& frame) const;
+    const Texture& texture() const { return visible_; }
+    /// The samples of the last recorded and finished frame, row 0 on top.
+    std::vector<VisibleSample> read_samples() const;
+
+  private:
+    void draw(vk::CommandBuffer commands, const Frame& frame) const;
+
+    const Device* device_;
+    const Resident* resident_;
+    Texture visible_;
+    Texture depth_;
+    vk::UniquePipelineLayout layout_;
+    vk::UniquePipeline pipeline_;
+};
+
+}  // namespace lw

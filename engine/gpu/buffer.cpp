@@ -1,0 +1,74 @@
+#include "gpu/buffer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#include "base/error.h"
+#include "gpu/commands.h"
+
+namespace lw {
+namespace {
+
+constexpr size_t staging_bytes = size_t(32) << 20;
+
+vk::UniqueDeviceMemory allocate(const Device& device, vk::MemoryRequirements needs, Buffer::Place place) {
+    using Property = vk::MemoryPropertyFlagBits;
+    const vk::MemoryPropertyFlags host = Property::eHostVisible | Property::eHostCoherent;
+    const vk::MemoryPropertyFlags wanted = place == Buffer::Place::host ? host : Property::eDeviceLocal;
+    int type = place == Buffer::Place::host ? device.find_memory_type(needs.memoryTypeBits, host | Property::eHostCached) : -1;
+    if (type < 0) type = device.find_memory_type(needs.memoryTypeBits, wanted);
+    if (type < 0) throw Error(device.name() + ": has no suitable memory");
+    return device.handle().allocateMemoryUnique({needs.size, uint32_t(type)});
+}
+
+vk::BufferUsageFlags usage_of(Buffer::Place place) {
+    const auto copies = vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst;
+    return place == Buffer::Place::host ? copies : copies | vk::BufferUsageFlagBits::eStorageBuffer;
+}
+
+}  // namespace
+
+Buffer::Buffer(const Device& device, vk::DeviceSize bytes, const std::string& what, Place place) : size_(bytes) {
+    assert(bytes > 0);
+    try {
+        buffer_ = device.handle().createBufferUnique({{}, bytes, usage_of(place)});
+        memory_ = allocate(device, device.handle().getBufferMemoryRequirements(*buffer_), place);
+        device.handle().bindBufferMemory(*buffer_, *memory_, 0);
+        if (place == Place::host) mapped_ = device.handle().mapMemory(*memory_, 0, VK_WHOLE_SIZE);
+    } catch (const vk::SystemError& failure) {
+        throw Error(device.name() + ": no memory for " + what + ", " + std::to_string((bytes >> 20) + 1) + " MiB of " +
+                    std::to_string(device.memory_size() >> 20) + " MiB: " + failure.what());
+    }
+}
+
+void write_bytes(const Device& device, const Buffer& buffer, const void* bytes, size_t count) {
+    assert(count <= buffer.size());
+    if (count == 0) return;
+    const Buffer staging(device, std::min(count, staging_bytes), "staging", Buffer::Place::host);
+    for (size_t done = 0; done < count; done += staging_bytes) {
+        const size_t part = std::min(count - done, staging_bytes);
+        std::memcpy(staging.mapped(), static_cast<const char*>(bytes) + done, part);
+        submit_and_wait(device, [&](vk::CommandBuffer commands) {
+            commands.copyBuffer(staging.handle(), buffer.handle(), vk::BufferCopy(0, done, part));
+            stage_barrier(commands, vk::PipelineStageFlagBits2::eTransfer, vk::PipelineStageFlagBits2::eAllCommands);
+        });
+    }
+}
+
+void read_bytes(const Device& device, const Buffer& buffer, void* bytes, size_t count) {
+    assert(count <= buffer.size());
+    if (count == 0) return;
+    const Buffer staging(device, std::min(count, staging_bytes), "staging", Buffer::Place::host);
+    for (size_t done = 0; done < count; done += staging_bytes) {
+        const size_t part = std::min(count - done, staging_bytes);
+        submit_and_wait(device, [&](vk::CommandBuffer commands) {
+            stage_barrier(commands, vk::PipelineStageFlagBits2::eAllCommands, vk::PipelineStageFlagBits2::eTransfer);
+            commands.copyBuffer(buffer.handle(), staging.handle(), vk::BufferCopy(done, 0, part));
+            stage_barrier(commands, vk::PipelineStageFlagBits2::eTransfer, vk::PipelineStageFlagBits2::eHost);
+        });
+        std::memcpy(static_cast<char*>(bytes) + done, staging.mapped(), part);
+    }
+}
+
+}  // namespace lw

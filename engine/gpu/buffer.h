@@ -1,0 +1,53 @@
+// Storage buffers in device memory, filled and read back through a small host-visible staging buffer.
+#pragma once
+#include <span>
+
+#include "gpu/device.h"
+
+namespace lw {
+
+/// Owns a buffer and its memory. Device-local buffers are storage buffers that can be copied to and from.
+class Buffer {
+  public:
+    enum class Place { device, host };  // host: visible to the CPU and coherent, for staging
+
+    Buffer() = default;
+    /// Throws Error naming `what` and its size when the device has not enough memory. bytes > 0.
+    Buffer(const Device& device, vk::DeviceSize bytes, const std::string& what, Place place = Place::device);
+
+    vk::Buffer handle() const { return *buffer_; }
+    vk::DeviceSize size() const { return size_; }
+    /// Start of the bytes of a host buffer.
+    void* mapped() const { return mapped_; }
+
+  private:
+    vk::DeviceSize size_ = 0;
+    vk::UniqueDeviceMemory memory_;
+    vk::UniqueBuffer buffer_;
+    void* mapped_ = nullptr;
+};
+
+/// Copies bytes into a device buffer from its start; waits until done.
+void write_bytes(const Device& device, const Buffer& buffer, const void* bytes, size_t count);
+/// Copies `count` bytes from the start of a device buffer; waits until done.
+void read_bytes(const Device& device, const Buffer& buffer, void* bytes, size_t count);
+
+/// A device buffer with these values; one of 16 zero bytes when there are none, so that it can be bound.
+template <class T>
+Buffer upload(const Device& device, std::span<const T> values, const std::string& what) {
+    static const char nothing[16] = {};
+    const size_t bytes = values.size_bytes();
+    Buffer buffer(device, bytes ? bytes : sizeof nothing, what);
+    write_bytes(device, buffer, bytes ? static_cast<const void*>(values.data()) : nothing, bytes ? bytes : sizeof nothing);
+    return buffer;
+}
+
+/// The first `count` values of a device buffer.
+template <class T>
+std::vector<T> read_back(const Device& device, const Buffer& buffer, size_t count) {
+    std::vector<T> values(count);
+    read_bytes(device, buffer, values.data(), count * sizeof(T));
+    return values;
+}
+
+}  // namespace lw

@@ -1,0 +1,34 @@
+// Recording, submitting and timing GPU work. Work is submitted in one piece and waited for.
+#pragma once
+#include <functional>
+
+#include "gpu/device.h"
+
+namespace lw {
+
+/// Records commands with `record`, submits them and waits until they are done.
+void submit_and_wait(const Device& device, const std::function<void(vk::CommandBuffer)>& record);
+
+/// All memory written in stage `from` is visible to stage `to`.
+void stage_barrier(vk::CommandBuffer commands, vk::PipelineStageFlags2 from, vk::PipelineStageFlags2 to);
+
+/// Timestamps on the GPU's clock.
+class Timestamps {
+  public:
+    Timestamps(const Device& device, uint32_t count);
+    /// Must be recorded before the first write, outside rendering.
+    void reset(vk::CommandBuffer commands) const { commands.resetQueryPool(*pool_, 0, count_); }
+    /// Time when all earlier commands are done.
+    void write(vk::CommandBuffer commands, uint32_t index) const {
+        commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *pool_, index);
+    }
+    /// Milliseconds between neighbouring timestamps, count - 1 of them; the commands must have finished.
+    std::vector<double> intervals_ms() const;
+
+  private:
+    const Device* device_;
+    uint32_t count_;
+    vk::UniqueQueryPool pool_;
+};
+
+}  // namespace lw

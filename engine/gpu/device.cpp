@@ -1,0 +1,200 @@
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+
+#include "base/error.h"
+
+namespace lw {
+namespace {
+
+constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL record_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    ValidationLog& log = *static_cast<ValidationLog*>(user);
+    std::lock_guard lock(log.mutex);
+    log.messages.emplace_back(data->pMessage);
+    return VK_FALSE;
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT messenger_settings(ValidationLog& log) {
+    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+    return vk::DebugUtilsMessengerCreateInfoEXT({}, Severity::eWarning | Severity::eError,
+                                                vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, record_message, &log);
+}
+
+vk::ApplicationInfo application() { return vk::ApplicationInfo("lumenwalk", 1, "lumenwalk", 1, VK_API_VERSION_1_3); }
+
+bool has_layer(const char* name) {
+    for (const vk::LayerProperties& layer : vk::enumerateInstanceLayerProperties())
+        if (std::string(layer.layerName.data()) == name) return true;
+    return false;
+}
+
+std::string lower(std::string text) {
+    for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::string name_of(vk::PhysicalDevice device) { return device.getProperties().deviceName.data(); }
+
+int rank(vk::PhysicalDevice device) {
+    switch (device.getProperties().deviceType) {
+        case vk::PhysicalDeviceType::eDiscreteGpu: return 0;
+        case vk::PhysicalDeviceType::eIntegratedGpu: return 1;
+        case vk::PhysicalDeviceType::eVirtualGpu: return 2;
+        case vk::PhysicalDeviceType::eCpu: return 3;
+        default: return 4;
+    }
+}
+
+std::vector<vk::PhysicalDevice> devices_best_first(vk::Instance instance) {
+    std::vector<vk::PhysicalDevice> devices = instance.enumeratePhysicalDevices();
+    std::stable_sort(devices.begin(), devices.end(), [](auto a, auto b) { return rank(a) < rank(b); });
+    return devices;
+}
+
+std::optional<uint32_t> queue_family_of(vk::PhysicalDevice device) {
+    const auto wanted = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
+    const auto families = device.getQueueFamilyProperties();
+    for (uint32_t i = 0; i < families.size(); ++i)
+        if ((families[i].queueFlags & wanted) == wanted && families[i].timestampValidBits > 0) return i;
+    return std::nullopt;
+}
+
+/// What the device lacks, or "".
+std::string lack_of(vk::PhysicalDevice device) {
+    const uint32_t version = device.getProperties().apiVersion;
+    if (version < VK_API_VERSION_1_3)
+        return "Vulkan 1.3, has " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+               std::to_string(VK_API_VERSION_MINOR(version));
+    const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                                           vk::PhysicalDeviceVulkan13Features>();
+    if (!chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout) return "feature scalarBlockLayout";
+    if (!chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering) return "feature dynamicRendering";
+    if (!chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2) return "feature synchronization2";
+    if (!queue_family_of(device)) return "a queue for graphics and compute with timestamps";
+    return "";
+}
+
+std::string list_names(const std::vector<vk::PhysicalDevice>& devices) {
+    std::string names;
+    for (vk::PhysicalDevice device : devices) names += (names.empty() ? "" : ", ") + name_of(device);
+    return names;
+}
+
+/// The best fit device; of those called `name` when it is not empty.
+vk::PhysicalDevice choose(const std::vector<vk::PhysicalDevice>& devices, const std::string& name) {
+    if (devices.empty()) throw Error("Vulkan: no device found (mesa-vulkan-drivers has one that runs on the CPU)");
+    std::string unfit;
+    for (vk::PhysicalDevice device : devices) {
+        if (lower(name_of(device)).find(lower(name)) == std::string::npos) continue;
+        const std::string lack = lack_of(device);
+        if (lack.empty()) return device;
+        unfit += (unfit.empty() ? "" : "; ") + name_of(device) + " lacks " + lack;
+    }
+    if (!unfit.empty()) throw Error("Vulkan: " + unfit);
+    throw Error("Vulkan: no device is called \"" + name + "\"; there are: " + list_names(devices));
+}
+
+}  // namespace
+
+Device::Device(const DeviceSettings& settings) {
+    try {
+        create_instance(settings.validation);
+        physical_ = choose(devices_best_first(*instance_), settings.name);
+        name_ = name_of(physical_);
+        limits_ = physical_.getProperties().limits;
+        create_device();
+    } catch (const vk::SystemError& failure) {
+        throw Error("Vulkan: cannot be started: " + std::string(failure.what()));
+    }
+}
+
+Device::~Device() {
+    if (!messenger_) return;
+    auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        instance_->getProcAddr("vkDestroyDebugUtilsMessengerEXT"));
+    command_pool_.reset();
+    device_.reset();
+    destroy(*instance_, messenger_, nullptr);
+}
+
+void Device::create_instance(bool validation) {
+    const vk::ApplicationInfo app = application();
+    if (!validation) {
+        instance_ = vk::createInstanceUnique(vk::InstanceCreateInfo({}, &app));
+        return;
+    }
+    if (!has_layer(validation_layer))
+        throw Error(std::string("Vulkan: ") + validation_layer + " is not installed (vulkan-validationlayers)");
+    log_ = std::make_unique<ValidationLog>();
+    const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    const vk::ValidationFeatureEnableEXT checks[] = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    vk::StructureChain<vk::InstanceCreateInfo, vk::ValidationFeaturesEXT, vk::DebugUtilsMessengerCreateInfoEXT> chain(
+        vk::InstanceCreateInfo({}, &app, validation_layer, extensions), vk::ValidationFeaturesEXT(checks),
+        messenger_settings(*log_));
+    instance_ = vk::createInstanceUnique(chain.get<vk::InstanceCreateInfo>());
+    auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        instance_->getProcAddr("vkCreateDebugUtilsMessengerEXT"));
+    const VkDebugUtilsMessengerCreateInfoEXT info = messenger_settings(*log_);
+    if (create(*instance_, &info, nullptr, &messenger_) != VK_SUCCESS)
+        throw Error("Vulkan: the validation layer cannot report");
+}
+
+void Device::create_device() {
+    queue_family_ = *queue_family_of(physical_);
+    const float priority = 1.0f;
+    const vk::DeviceQueueCreateInfo queue_info({}, queue_family_, 1, &priority);
+    vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>
+        chain;
+    chain.get<vk::DeviceCreateInfo>().setQueueCreateInfos(queue_info);
+    chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout = true;
+    chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering = true;
+    chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2 = true;
+    device_ = physical_.createDeviceUnique(chain.get<vk::DeviceCreateInfo>());
+    queue_ = device_->getQueue(queue_family_, 0);
+    command_pool_ = device_->createCommandPoolUnique({vk::CommandPoolCreateFlagBits::eTransient, queue_family_});
+}
+
+vk::DeviceSize Device::memory_size() const {
+    const vk::PhysicalDeviceMemoryProperties memory = physical_.getMemoryProperties();
+    vk::DeviceSize largest = 0;
+    for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+            largest = std::max(largest, memory.memoryHeaps[i].size);
+    return largest;
+}
+
+int Device::find_memory_type(uint32_t allowed, vk::MemoryPropertyFlags wanted) const {
+    const vk::PhysicalDeviceMemoryProperties memory = physical_.getMemoryProperties();
+    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+        if ((allowed >> i & 1u) != 0 && (memory.memoryTypes[i].propertyFlags & wanted) == wanted) return int(i);
+    return -1;
+}
+
+std::vector<std::string> Device::validation_messages() const {
+    if (!log_) return {};
+    std::lock_guard lock(log_->mutex);
+    return log_->messages;
+}
+
+std::vector<std::string> device_names() {
+    std::vector<std::string> names;
+    try {
+        const vk::ApplicationInfo app = application();
+        const vk::UniqueInstance instance = vk::createInstanceUnique(vk::InstanceCreateInfo({}, &app));
+        for (vk::PhysicalDevice device : devices_best_first(*instance)) {
+            const std::string lack = lack_of(device);
+            names.push_back(name_of(device) + (lack.empty() ? "" : " (lacks " + lack + ")"));
+        }
+    } catch (const vk::SystemError&) {
+        names.clear();  // a machine without any driver refuses the instance: no devices
+    }
+    return names;
+}
+
+}  // namespace lw

@@ -1,0 +1,55 @@
+// Pipelines and the descriptor sets they read. Specialization constants are a list: entry i is constant_id i.
+#pragma once
+#include <span>
+
+#include "gpu/buffer.h"
+#include "gpu/texture.h"
+
+namespace lw {
+
+using SpirV = std::span<const uint32_t>;
+using Constants = std::span<const uint32_t>;
+
+/// What a shader finds at one binding.
+struct Binding {
+    uint32_t binding;
+    vk::DescriptorType type = vk::DescriptorType::eStorageBuffer;
+    uint32_t count = 1;
+    vk::ShaderStageFlags stages = vk::ShaderStageFlagBits::eCompute;
+};
+
+/// One descriptor set with its own layout and pool. Every binding must be set before use.
+class DescriptorSet {
+  public:
+    DescriptorSet(const Device& device, std::span<const Binding> bindings);
+    vk::DescriptorSetLayout layout() const { return *layout_; }
+    vk::DescriptorSet handle() const { return set_; }
+    void set_buffer(uint32_t binding, const Buffer& buffer, uint32_t element = 0) const;
+    /// A texture in layout eShaderReadOnlyOptimal, fetched without a sampler.
+    void set_texture(uint32_t binding, const Texture& texture) const;
+
+  private:
+    const Device* device_;
+    vk::UniqueDescriptorSetLayout layout_;
+    vk::UniqueDescriptorPool pool_;
+    vk::DescriptorSet set_;
+};
+
+/// Layout of these sets and `push_bytes` of push constants seen by `stages`.
+vk::UniquePipelineLayout make_layout(const Device& device, std::span<const vk::DescriptorSetLayout> sets,
+                                     vk::ShaderStageFlags stages, uint32_t push_bytes);
+
+vk::UniquePipeline make_compute_pipeline(const Device& device, vk::PipelineLayout layout, SpirV code,
+                                         Constants constants);
+
+struct RasterShaders {
+    SpirV vertex;
+    SpirV fragment;
+};
+
+/// Triangles without vertex buffers, no culling, no blending, depth test `greater` (reversed depth).
+/// Viewport and scissor are dynamic.
+vk::UniquePipeline make_raster_pipeline(const Device& device, vk::PipelineLayout layout, RasterShaders code,
+                                        Constants constants, vk::Format color, vk::Format depth);
+
+}  // namespace lw

@@ -1,0 +1,57 @@
+#include "image/png.h"
+
+#include <cassert>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "image/replaced_file.h"
+
+// Static: libtinygltf.so exports the same symbols.
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
+
+namespace lw {
+namespace {
+
+void append(void* stream, void* bytes, int size) {
+    static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(bytes), size);
+}
+
+std::vector<uint8_t> read_bytes(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) throw Error(path.string() + ": cannot be opened");
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+void write_png(const std::filesystem::path& path, const Rgb8Image& image) {
+    assert(image.rgb.size() == 3 * image.pixel_count());
+    ReplacedFile file(path);
+    int stride = 3 * image.width;
+    if (!stbi_write_png_to_func(append, &file.stream(), image.width, image.height, 3, image.rgb.data(), stride))
+        throw Error(path.string() + ": cannot be encoded as PNG");
+    file.commit();
+}
+
+Rgb8Image read_png(const std::filesystem::path& path) {
+    std::vector<uint8_t> bytes = read_bytes(path);
+    if (bytes.size() > size_t(1) << 30) throw Error(path.string() + ": larger than 1 GiB");
+    Rgb8Image image;
+    std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(bytes.data(), int(bytes.size()), &image.width, &image.height, nullptr, 3),
+        stbi_image_free);
+    if (!pixels) throw Error(path.string() + ": not a readable PNG: " + stbi_failure_reason());
+    image.rgb.assign(pixels.get(), pixels.get() + 3 * image.pixel_count());
+    return image;
+}
+
+}  // namespace lw

@@ -1,0 +1,17 @@
+// Display pictures to and from PNG files; the only user of stb_image_write.
+// In and out: sRGB codes of 8 bits, three per pixel, row 0 on top. No colour conversion here.
+#pragma once
+#include <filesystem>
+
+#include "image/rgb8_image.h"
+
+namespace lw {
+
+/// Writes `image` beside `path`, then renames it into place. Throws Error naming the file when it cannot be written.
+void write_png(const std::filesystem::path& path, const Rgb8Image& image);
+
+/// Reads any PNG as 8-bit RGB: alpha is dropped, grey repeated. Throws Error naming the file when it is missing or
+/// damaged.
+Rgb8Image read_png(const std::filesystem::path& path);
+
+}  // namespace lw

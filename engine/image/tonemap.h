@@ -1,0 +1,28 @@
+// From a picture in cd/m2 to one for a screen: exposure, tone curve, sRGB codes of 8 bits.
+// The curve and its sources are in shaders/tonemap.glsl, which the GPU pass shares. EV is EV100, as on a light meter:
+// exposed value = luminance / (1.2 * 2^EV), so one EV more is half as bright. A lit room has EV 5 to 8.
+#pragma once
+#include "image/image.h"
+#include "image/rgb8_image.h"
+#include "tonemap.glsl"
+
+namespace lw {
+
+/// Rec.709 luminance of linear RGB.
+inline float luminance(const vec3& rgb) { return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z; }
+
+/// The channels R, G, B of each pixel; throws Error naming the first one that is missing.
+std::vector<vec3> rgb_pixels(const Image& image);
+
+/// Exposed and tone-mapped RGB, display-linear in [0, 1]. Negative values count as 0, NaN stays NaN.
+vec3 tone_map_pixel(const vec3& rgb_cd_m2, float exposure_ev);
+
+/// Channels R, G, B in cd/m2 to sRGB codes. A pixel that is not a number becomes magenta, to be seen.
+/// Throws Error when a channel is missing.
+Rgb8Image tonemap(const Image& image, float exposure_ev);
+
+/// The EV that puts the log-average luminance of the picture's 5th to 95th percentile at 0.2 on the screen, but its
+/// 90th percentile no higher than 1.2, so that a window or lamp may burn out and a room may not. 0 for a black picture.
+float auto_exposure_ev(const Image& image);
+
+}  // namespace lw

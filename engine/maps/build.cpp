@@ -1,0 +1,195 @@
+#include "maps/build.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "maps/packing.h"
+#include "maps/patches.h"
+#include "maps/references.h"
+
+namespace lw {
+namespace {
+
+constexpr float patch_radii = 6;            // size of a patch in search radii (study: 4 to 8)
+constexpr double references_per_cell = 2.5;
+
+/// Averages of the triangles of one patch, for its frame.
+struct PatchShape {
+    glm::dvec3 normal_sum{0};
+    vec3 longest_edge{0};
+    vec3 any_corner{0};
+    float longest = -1;
+};
+
+std::vector<PatchShape> shapes_of(const Scene& scene, const Patches& patches) {
+    std::vector<PatchShape> shapes(patches.count);
+    for (size_t t = 0; t < scene.triangles.size(); ++t) {
+        const uvec3 corner = scene.triangles[t];
+        const std::array<vec3, 3> p{scene.positions[corner.x], scene.positions[corner.y], scene.positions[corner.z]};
+        const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
+        for (uint side = 0; side < 2; ++side) {
+            PatchShape& shape = shapes[patches.of_side[2 * t + side]];
+            shape.normal_sum += glm::dvec3(side ? -product : product);
+            for (size_t e = 0; e < 3; ++e) {
+                const vec3 edge = p[(e + 1) % 3] - p[e];
+                if (length(edge) <= shape.longest) continue;
+                shape.longest = length(edge);
+                shape.longest_edge = edge;
+                shape.any_corner = p[e];
+            }
+        }
+    }
+    return shapes;
+}
+
+/// Orthonormal frame of a patch; origin and sizes follow from its photons.
+SurfaceGrid frame_of(const PatchShape& shape) {
+    SurfaceGrid grid{};
+    const double size = glm::length(shape.normal_sum);
+    grid.normal = size > 0 ? vec3(shape.normal_sum / size) : vec3(0, 1, 0);
+    vec3 u = shape.longest_edge - grid.normal * dot(shape.longest_edge, grid.normal);
+    if (!(length(u) > 1e-6f * std::max(shape.longest, 1e-30f)))
+        u = cross(grid.normal, abs(grid.normal.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 0, 1));
+    grid.u_axis = normalize(u);
+    grid.v_axis = cross(grid.normal, grid.u_axis);
+    grid.origin = shape.any_corner;
+    return grid;
+}
+
+/// Moves the origin to the corner of the photons' bounds and sets quantum and cells for `count` references.
+void fit_grid(SurfaceGrid& grid, const std::vector<Photon>& photons, const uint* first, const uint* last) {
+    vec3 low(1e30f), high(-1e30f);
+    for (const uint* i = first; i != last; ++i) {
+        const vec3 offset = photons[*i].position - grid.origin;
+        const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+        low = min(low, local), high = max(high, local);
+    }
+    const vec3 reach = max(abs(grid.origin), vec3(1e-20f));
+    const float floor_size = 1e-6f * std::max({reach.x, reach.y, reach.z});
+    const vec3 extent = max((high - low) * 1.0001f, vec3(floor_size));
+    grid.origin += grid.u_axis * low.x + grid.v_axis * low.y;
+    grid.h_origin = low.z;
+    grid.quantum = extent / 65535.0f;
+    const auto count = double(last - first);
+    const double cells = std::max(1.0, count / references_per_cell);
+    double cell = std::sqrt(double(extent.x) * double(extent.y) / cells);
+    cell = std::max({cell, double(extent.x) / cells, double(extent.y) / cells});
+    grid.cell_size = float(cell);
+    grid.columns = uint(std::max(1.0, std::ceil(double(extent.x) / double(grid.cell_size))));
+    grid.rows = uint(std::max(1.0, std::ceil(double(extent.y) / double(grid.cell_size))));
+}
+
+PhotonPlace place_of(const Photon& photon, const SurfaceGrid& grid) {
+    const vec3 offset = photon.position - grid.origin;
+    const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal) - grid.h_origin);
+    const auto step = [](float v, float quantum) { return uint(clamp(std::round(v / quantum), 0.0f, 65535.0f)); };
+    return {step(local.x, grid.quantum.x) | step(local.y, grid.quantum.y) << 16,
+            step(local.z, grid.quantum.z) | (photon.origin & 0xffffu) << 16};
+}
+
+uint cell_of(PhotonPlace place, const SurfaceGrid& grid) {
+    const vec3 local = place_in_grid(place, grid);
+    const uint x = std::min(uint(local.x / grid.cell_size), grid.columns - 1);
+    const uint y = std::min(uint(local.y / grid.cell_size), grid.rows - 1);
+    return y * grid.columns + x;
+}
+
+/// Writes the records of one map in cell order.
+void fill_grid(PhotonMap& map, uint index, const std::vector<Photon>& photons, const uint* first, const uint* last, uint begin) {
+    const SurfaceGrid& grid = map.grids[index];
+    const size_t count = size_t(last - first);
+    std::vector<PhotonPlace> places(count);
+    std::vector<uint> next(grid.columns * grid.rows + 1, 0);
+    for (size_t i = 0; i < count; ++i) {
+        places[i] = place_of(photons[first[i]], grid);
+        ++next[cell_of(places[i], grid) + 1];
+    }
+    next[0] = begin;
+    for (size_t c = 1; c < next.size(); ++c) next[c] += next[c - 1];
+    std::copy(next.begin(), next.end() - 1, map.cell_starts.begin() + grid.first_cell);
+    for (size_t i = 0; i < count; ++i) {
+        const Photon& photon = photons[first[i]];
+        const uint slot = next[cell_of(places[i], grid)]++;
+        map.places[slot] = places[i];
+        map.fluxes[slot] = pack_rgb9e5(photon.flux * map.flux_scale);
+        if (map.has_directions()) map.directions[slot] = pack_direction(photon.from);
+    }
+}
+
+/// Brings the brightest photon to 2^12, so that RGB9E5 keeps 28 powers of two below it.
+float flux_scale_of(const std::vector<Photon>& photons) {
+    float top = 0;
+    for (const Photon& p : photons) top = std::max({top, p.flux.x, p.flux.y, p.flux.z});
+    return top > 0 ? std::exp2(12 - std::ceil(std::log2(top))) : 1.0f;
+}
+
+/// Drops patches without photons; returns the kept patches in order.
+std::vector<uint> keep_lit_patches(const References& references, const Patches& patches, PhotonMap& map) {
+    std::vector<uint> kept, renumbered(patches.count, no_map);
+    for (uint p = 0; p < patches.count; ++p) {
+        if (references.starts[p] == references.starts[p + 1]) continue;
+        renumbered[p] = uint(kept.size());
+        kept.push_back(p);
+    }
+    map.triangle_maps.resize(patches.of_side.size());
+    for (size_t i = 0; i < patches.of_side.size(); ++i) map.triangle_maps[i] = renumbered[patches.of_side[i]];
+    return kept;
+}
+
+}  // namespace
+
+float automatic_radius(const Scene& scene, uint64_t photons) {
+    double area = 0;
+    for (const uvec3& t : scene.triangles) {
+        const vec3 a = scene.positions[t.x];
+        area += 0.5 * double(length(cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
+    }
+    const float half_diagonal = 0.5f * length(scene.bounds[1] - scene.bounds[0]);
+    const double wanted = 1.2 * std::sqrt(200 * area / (double(lw_pi) * double(std::max<uint64_t>(photons, 1))));
+    return std::min(float(wanted), half_diagonal);
+}
+
+bool needs_directions(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+        return m.metallic > 0 || m.specular > 0 || m.normal_texture.texture >= 0;
+    });
+}
+
+PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings) {
+    if (!(settings.radius > 0)) settings.radius = automatic_radius(scene, photons.records.size());
+    PhotonMap map;
+    map.scene_hash = scene.content_hash;
+    map.settings = settings;
+    map.stored_photons = photons.records.size();
+    map.flux_scale = flux_scale_of(photons.records);
+    for (const LightBalance& light : photons.lights) map.emitted.push_back(light.emitted);
+
+    const Patches patches = group_triangles(scene, patch_radii * settings.radius);
+    const References references = find_references(scene, caster, photons.records, patches, settings);
+    const std::vector<uint> kept = keep_lit_patches(references, patches, map);
+    const std::vector<PatchShape> shapes = shapes_of(scene, patches);
+    const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
+    const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
+
+    map.grids.resize(kept.size());
+    parallel_for(kept.size(), [&](size_t m) {
+        map.grids[m] = frame_of(shapes[kept[m]]);
+        fit_grid(map.grids[m], photons.records, first(m), last(m));
+    });
+    uint cells = 0;
+    for (SurfaceGrid& grid : map.grids) {
+        grid.first_cell = cells;
+        cells += grid.columns * grid.rows;
+    }
+    map.cell_starts.assign(cells + 1, uint(references.photons.size()));
+    map.places.resize(references.photons.size());
+    map.fluxes.resize(references.photons.size());
+    if (needs_directions(scene)) map.directions.resize(references.photons.size());
+    parallel_for(kept.size(), [&](size_t m) {
+        fill_grid(map, uint(m), photons.records, first(m), last(m), uint(references.starts[kept[m]]));
+    });
+    return map;
+}
+
+}  // namespace lw

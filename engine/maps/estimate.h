@@ -1,0 +1,55 @@
+// Density estimation on the CPU: the text of shaders/gather.glsl over a PhotonMap; the oracle of the gather shader.
+#pragma once
+#include "maps/photon_map.h"
+#include "scene/surface.h"
+
+namespace lw {
+
+/// How photons are turned into radiance; the same settings drive the gather shader.
+struct GatherSettings {
+    uint mode = 1;          // 0: exact k nearest neighbours, 1: smooth (bandwidth from cell counts, Epanechnikov)
+    uint neighbours = 200;  // photons per estimate
+};
+
+/// Photon estimate at surface points; read-only view, scene and map must outlive it.
+class PhotonEstimator : public SurfaceReader {
+  public:
+    static constexpr uint heap_size = 1024;  // most neighbours of the exact mode
+
+    /// `light_weights`: RGB power of each light in its own unit (intensity x dimmer).
+    PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_weights,
+                    GatherSettings settings)
+        : SurfaceReader(scene), grids(map.grids.data()), cell_starts(map.cell_starts.data()), map_(map),
+          weights_(light_weights), gather_mode(settings.mode), neighbours(settings.neighbours),
+          max_radius(map.settings.radius), inverse_flux_scale(1.0f / map.flux_scale),
+          has_directions(map.has_directions()) {}
+
+    PhotonPlace photon_place(uint i) const { return map_.places[i]; }
+    uint photon_flux(uint i) const { return map_.fluxes[i]; }
+    uint photon_direction(uint i) const { return map_.directions[i]; }
+    vec3 light_weight(uint light) const { return weights_[light]; }
+
+#include "shaders/gather.glsl"
+
+    /// The estimate at (triangle, barycentrics) seen from direction `to_view` (unit).
+    Gathered estimate(uint triangle, vec2 barycentrics, vec3 to_view) const {
+        const Surface s = surface_at(triangle, barycentrics);
+        const bool back = dot(s.geometric_normal, to_view) < 0;
+        const float side = back ? -1.0f : 1.0f;
+        return gather_photons(map_.triangle_maps[2 * triangle + (back ? 1 : 0)], s, s.geometric_normal * side,
+                              s.normal * side, to_view);
+    }
+
+  private:
+    const SurfaceGrid* grids;
+    const uint* cell_starts;
+    const PhotonMap& map_;
+    const std::vector<vec3>& weights_;
+    uint gather_mode;
+    uint neighbours;
+    float max_radius;
+    float inverse_flux_scale;
+    bool has_directions;
+};
+
+}  // namespace lw

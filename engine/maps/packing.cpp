@@ -1,0 +1,32 @@
+#include "maps/packing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lw {
+
+uint pack_rgb9e5(vec3 color) {
+    constexpr float largest = 65408;  // (2^9 - 1) / 2^9 * 2^16
+    const auto bounded = [=](float v) { return v > 0 ? std::min(v, largest) : 0.0f; };
+    const vec3 c(bounded(color.x), bounded(color.y), bounded(color.z));
+    const float top = std::max({c.x, c.y, c.z});
+    if (!(top > 0)) return 0;
+    int exponent = std::max(-16, int(std::floor(std::log2(top)))) + 16;
+    if (std::floor(top / std::ldexp(1.0f, exponent - 24) + 0.5f) >= 512) ++exponent;
+    const float step = std::ldexp(1.0f, exponent - 24);
+    const auto mantissa = [&](float v) { return std::min(uint(std::floor(v / step + 0.5f)), 511u); };
+    return mantissa(c.x) | mantissa(c.y) << 9 | mantissa(c.z) << 18 | uint(exponent) << 27;
+}
+
+uint pack_direction(vec3 d) {
+    const float sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    float x = d.x / sum, y = d.y / sum;
+    if (d.z < 0) {
+        const float fx = (1 - std::abs(y)) * (x >= 0 ? 1.0f : -1.0f), fy = (1 - std::abs(x)) * (y >= 0 ? 1.0f : -1.0f);
+        x = fx, y = fy;
+    }
+    const auto quantise = [](float v) { return uint(std::lround(clamp(v * 0.5f + 0.5f, 0.0f, 1.0f) * 65535.0f)); };
+    return quantise(x) | quantise(y) << 16;
+}
+
+}  // namespace lw

@@ -1,0 +1,162 @@
+#include "photons/shoot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "trace/bsdf.h"
+#include "trace/emitter.h"
+#include "trace/sampling.h"
+
+namespace lw {
+namespace {
+
+constexpr uint64_t chunk_size = 4096;   // paths per task
+constexpr uint64_t pilot_paths = 8192;  // per lamp, to learn what it stores
+constexpr int longest_path = 10000;
+
+double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
+
+/// One task: paths [first, last) of a lamp.
+struct Chunk {
+    uint light;
+    uint64_t first, last;
+    std::vector<Photon> photons;
+    double emitted_flux = 0, absorbed = 0, escaped = 0;
+};
+
+class Shooter {
+  public:
+    Shooter(const Scene& scene, const RayCaster& caster, uint64_t seed)
+        : caster_(caster), surfaces_(scene), emitters_(scene), seed_(seed) {}
+
+    float unit_flux(uint light) const { return emitters_.unit_flux(light); }
+
+    /// Traces the paths of a chunk; each photon carries 1 / emitted of the lamp's flux.
+    void trace(Chunk& chunk, double emitted) const {
+        for (uint64_t index = chunk.first; index < chunk.last; ++index) trace_path(chunk, index, float(1.0 / emitted));
+    }
+
+  private:
+    void trace_path(Chunk& chunk, uint64_t index, float share) const;
+
+    const RayCaster& caster_;
+    SurfaceReader surfaces_;
+    Emitters emitters_;
+    uint64_t seed_;
+};
+
+void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
+    Rng rng(seed_, chunk.light + 1, index);
+    std::array<float, 5> u;
+    const auto scramble = uint32_t(mix64(seed_ * 0x10001 + chunk.light));
+    for (int d = 0; d < 5; ++d) u[size_t(d)] = sobol_owen(uint32_t(index), d, scramble);
+    const Emission photon = emitters_.emit(chunk.light, u);
+    vec3 flux = photon.flux * share, origin = caster_.offset(photon.origin, photon.normal), direction = photon.direction;
+    uint path = path_direct;
+    chunk.emitted_flux += luminance(flux);
+    for (int depth = 0; depth < longest_path; ++depth) {
+        const std::optional<Hit> hit = caster_.nearest(origin, direction);
+        if (!hit) {
+            chunk.escaped += luminance(flux);
+            return;
+        }
+        const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
+        const bool back = dot(s.geometric_normal, direction) > 0;
+        if (!surfaces_.is_purely_specular(s))
+            chunk.photons.push_back({s.position, flux, -direction, hit->triangle, pack_origin(chunk.light, path, back)});
+        const std::optional<Scatter> next = sample_bsdf(surfaces_, s, -direction, rng);
+        const vec3 reflected = next ? flux * next->weight : vec3(0);
+        const float before = std::max({flux.x, flux.y, flux.z}), after = std::max({reflected.x, reflected.y, reflected.z});
+        const float survival = before > 0 ? std::min(1.0f, after / before) : 0.0f;
+        if (!(rng.next() < survival)) {
+            chunk.absorbed += luminance(flux);
+            return;
+        }
+        const vec3 kept = reflected / survival;
+        chunk.absorbed += luminance(flux) - luminance(kept);
+        flux = kept;
+        if (!next->specular) path = path_indirect;
+        else if (path == path_direct && !((s.flags & material_thin) && dot(next->direction, direction) > 0.9999f)) path = path_caustic;
+        const vec3 ng = back ? -s.geometric_normal : s.geometric_normal;
+        direction = next->direction;
+        origin = caster_.offset(s.position, dot(direction, ng) > 0 ? ng : -ng);
+    }
+    chunk.absorbed += luminance(flux);
+}
+
+std::vector<Chunk> split_paths(const std::vector<uint64_t>& emitted, const std::vector<uint64_t>& first) {
+    std::vector<Chunk> chunks;
+    for (uint light = 0; light < emitted.size(); ++light)
+        for (uint64_t i = first[light]; i < emitted[light]; i += chunk_size)
+            chunks.push_back({light, i, std::min(i + chunk_size, emitted[light]), {}, 0, 0, 0});
+    return chunks;
+}
+
+/// How many paths each lamp gets so that `wanted` photons are stored in all.
+std::vector<uint64_t> plan_emission(const Shooter& shooter, const Scene& scene, uint64_t wanted) {
+    const size_t count = scene.lights.size();
+    std::vector<Chunk> pilots = split_paths(std::vector<uint64_t>(count, pilot_paths), std::vector<uint64_t>(count, 0));
+    parallel_for(pilots.size(), [&](size_t i) { shooter.trace(pilots[i], double(pilot_paths)); });
+    std::vector<double> yield(count, 0), useful(count, 0);
+    for (const Chunk& pilot : pilots) {
+        yield[pilot.light] += double(pilot.photons.size()) / double(pilot_paths);
+        for (const Photon& p : pilot.photons)
+            useful[pilot.light] += luminance(p.flux * scene.lights[pilot.light].intensity) * (p.path() == path_direct ? 0.05 : 1);
+    }
+    double sum = 0;
+    for (double& flux : useful) sum += flux = std::sqrt(flux);
+    const double floor = sum > 0 ? 0.25 * sum / double(count) : 1;
+    sum = 0;
+    for (size_t light = 0; light < count; ++light) sum += useful[light] = yield[light] > 0 ? std::max(useful[light], floor) : 0;
+    if (!(sum > 0)) throw Error(scene.path.filename().string() + ": no light reaches a surface that can show it; check where the lamps stand and point");
+    std::vector<uint64_t> emitted(count, 0);
+    for (size_t light = 0; light < count; ++light)
+        if (yield[light] > 0)
+            emitted[light] = uint64_t(std::max(1.0, std::round(double(wanted) * useful[light] / sum / std::max(yield[light], 0.02))));
+    for (uint64_t paths : emitted)
+        if (paths > 0xffffffffull) throw Error(scene.path.filename().string() + ": more than 2^32 photon paths for one lamp; ask for fewer photons");
+    return emitted;
+}
+
+}  // namespace
+
+Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSettings& settings) {
+    if (scene.lights.size() > light_mask) throw Error(scene.path.filename().string() + ": more than 16383 lamps");
+    const Shooter shooter(scene, caster, settings.seed);
+    const std::vector<uint64_t> emitted = plan_emission(shooter, scene, settings.photons);
+    std::vector<Chunk> chunks = split_paths(emitted, std::vector<uint64_t>(emitted.size(), 0));
+    uint64_t paths = 0;
+    for (uint64_t n : emitted) paths += n;
+    {
+        Progress progress("photons", paths);
+        parallel_for(chunks.size(), [&](size_t i) {
+            shooter.trace(chunks[i], double(emitted[chunks[i].light]));
+            progress.step(chunks[i].last - chunks[i].first);
+        });
+    }
+    Photons photons;
+    photons.lights.resize(scene.lights.size());
+    std::vector<size_t> begins;
+    size_t total = 0;
+    for (const Chunk& chunk : chunks) {
+        begins.push_back(total);
+        total += chunk.photons.size();
+        LightBalance& balance = photons.lights[chunk.light];
+        balance.stored += chunk.photons.size();
+        balance.flux_out += chunk.emitted_flux;
+        balance.absorbed += chunk.absorbed;
+        balance.escaped += chunk.escaped;
+    }
+    for (uint light = 0; light < emitted.size(); ++light) photons.lights[light].emitted = emitted[light];
+    photons.records.resize(total);
+    parallel_for(chunks.size(), [&](size_t i) {
+        std::copy(chunks[i].photons.begin(), chunks[i].photons.end(), photons.records.begin() + ptrdiff_t(begins[i]));
+        std::vector<Photon>().swap(chunks[i].photons);
+    });
+    return photons;
+}
+
+}  // namespace lw

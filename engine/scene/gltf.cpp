@@ -1,0 +1,32 @@
+#include "scene/gltf.h"
+
+#include <new>
+
+#include "base/error.h"
+#include "scene/content_hash.h"
+#include "scene/gltf_cameras.h"
+#include "scene/gltf_geometry.h"
+#include "scene/gltf_lights.h"
+#include "scene/gltf_materials.h"
+
+namespace lw {
+
+Scene load_gltf(const std::filesystem::path& path) try {
+    GltfFile file = open_gltf(path);
+    Scene scene;
+    scene.path = path;
+    const std::vector<PlacedNode> nodes = place_nodes(file);
+    load_materials(file, scene);
+    const std::vector<size_t> object_nodes = load_geometry(file, nodes, scene);
+    load_lights(file, nodes, object_nodes, scene);
+    load_cameras(file, nodes, scene);
+    scene.content_hash = content_hash(scene);
+    scene.warnings = std::move(file.warnings);
+    return scene;
+} catch (const std::bad_alloc&) {
+    throw Error(path.filename().string() + ": needs more memory than there is");
+} catch (const std::length_error&) {
+    throw Error(path.filename().string() + ": needs more memory than there is");
+}
+
+}  // namespace lw

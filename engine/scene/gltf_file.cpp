@@ -1,0 +1,208 @@
+#include "scene/gltf_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "scene/gltf_extensions.h"
+
+namespace lw {
+namespace {
+
+using Json = nlohmann::json;
+constexpr size_t glb_header_bytes = 20;  // header and the head of the first chunk
+
+std::vector<unsigned char> read_bytes(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary | std::ios::ate);
+    const std::streamoff size = stream && std::filesystem::is_regular_file(path) ? std::streamoff(stream.tellg()) : -1;
+    if (size < 0) throw Error(path.string() + ": cannot be opened");
+    if (size >= std::streamoff(std::numeric_limits<uint32_t>::max()))
+        throw Error(path.string() + ": larger than 4 GiB, which tinygltf cannot read; split it into .gltf and .bin");
+    std::vector<unsigned char> bytes(size_t(size) + 1, 0);
+    stream.seekg(0).read(reinterpret_cast<char*>(bytes.data()), size);
+    if (!stream) throw Error(path.string() + ": cannot be read");
+    bytes.pop_back();  // the zero stays behind the last byte: tinygltf prints a few bytes of bad JSON
+    return bytes;
+}
+
+bool is_binary(const std::vector<unsigned char>& bytes) {
+    return bytes.size() >= 4 && !std::memcmp(bytes.data(), "glTF", 4);
+}
+
+uint32_t word_at(const std::vector<unsigned char>& bytes, size_t offset) {
+    uint32_t word;
+    std::memcpy(&word, bytes.data() + offset, 4);
+    return word;
+}
+
+std::string_view json_text(const GltfFile& file, const std::vector<unsigned char>& bytes) {
+    const char* text = reinterpret_cast<const char*>(bytes.data());
+    if (!is_binary(bytes)) return {text, bytes.size()};
+    if (bytes.size() < glb_header_bytes) file.fail("truncated: " + std::to_string(bytes.size()) + " bytes");
+    const uint64_t declared = word_at(bytes, 8), json_bytes = word_at(bytes, 12);
+    if (word_at(bytes, 4) != 2) file.fail("GLB version " + std::to_string(word_at(bytes, 4)) + "; only 2 is supported");
+    if (declared > bytes.size())
+        file.fail("truncated: " + std::to_string(bytes.size()) + " of " + std::to_string(declared) + " bytes");
+    if (glb_header_bytes + json_bytes > declared) file.fail("the JSON chunk is longer than the file");
+    // tinygltf 2.7 forgets the 8 bytes of this chunk's head in its own check and would read past the end.
+    const uint64_t next = glb_header_bytes + json_bytes;
+    if (next < declared && (next + 8 > declared || next + 8 + word_at(bytes, size_t(next)) > declared))
+        file.fail("truncated: the BIN chunk is longer than the file");
+    return {text + glb_header_bytes, size_t(json_bytes)};
+}
+
+/// Parses the text, refusing nesting so deep that tinygltf's recursion would exhaust the stack.
+Json parse_json(const GltfFile& file, std::string_view text) {
+    const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
+        if (depth > 200) file.fail("JSON is nested too deeply");
+        return true;
+    };
+    try {
+        return Json::parse(text, shallow);
+    } catch (const Json::exception& e) {
+        file.fail(std::string("not valid JSON: ") + e.what());
+    }
+}
+
+std::vector<std::string> strings_of(const Json& root, const char* key) {
+    std::vector<std::string> strings;
+    const auto it = root.find(key);
+    if (it == root.end() || !it->is_array()) return strings;
+    for (const Json& entry : *it)
+        if (entry.is_string()) strings.push_back(entry.get<std::string>());
+    return strings;
+}
+
+std::string percent_decoded(const std::string& uri) {
+    std::string text;
+    for (size_t i = 0; i < uri.size(); ++i) {
+        const bool escape = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(uint8_t(uri[i + 1])) &&
+                            std::isxdigit(uint8_t(uri[i + 2]));
+        text += escape ? char(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
+        if (escape) i += 2;
+    }
+    return text;
+}
+
+bool stays_in_folder(const std::string& uri) {
+    std::string text = percent_decoded(uri);
+    std::replace(text.begin(), text.end(), '\\', '/');
+    if (text.starts_with('/') || text.find("://") != std::string::npos || (text.size() > 1 && text[1] == ':'))
+        return false;
+    for (const auto& part : std::filesystem::path(text))
+        if (part == "..") return false;
+    return true;
+}
+
+void check_uris(const GltfFile& file, const Json& root, const char* kind) {
+    const auto it = root.find(kind);
+    if (it == root.end() || !it->is_array()) return;
+    for (const Json& entry : *it) {
+        if (!entry.is_object() || !entry.contains("uri") || !entry["uri"].is_string()) continue;
+        const auto uri = entry["uri"].get<std::string>();
+        if (!uri.starts_with("data:") && !stays_in_folder(uri))
+            file.fail(std::string(kind) + ": \"" + uri.substr(0, 80) + "\" is not inside the folder of the file");
+    }
+}
+
+/// What must be known before tinygltf decodes anything: it checks neither extensionsRequired nor where URIs lead.
+void check_before_parsing(GltfFile& file, const Json& root) {
+    if (!root.is_object()) file.fail("the root of the JSON is not an object");
+    const auto asset = root.find("asset");
+    const bool has_version =
+        asset != root.end() && asset->is_object() && asset->contains("version") && (*asset)["version"].is_string();
+    const std::string version = has_version ? (*asset)["version"].get<std::string>() : "";
+    if (!version.starts_with("2."))
+        file.fail(version.empty() ? "has no asset.version" : "is glTF " + version + ", not 2.0");
+    for (const std::string& extension : strings_of(root, "extensionsRequired"))
+        if (!reads_extension(extension)) file.fail("requires the extension " + extension + ", which is not supported");
+    for (const std::string& extension : strings_of(root, "extensionsUsed"))
+        if (changes_look(extension)) file.warn("the extension " + extension + " is ignored; the look may differ");
+    check_uris(file, root, "buffers");
+    check_uris(file, root, "images");
+}
+
+/// Keeps the encoded bytes of an image with a URI; images in buffer views are read, bounds-checked, when needed.
+bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                  int size, void*) {
+    if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
+    return true;
+}
+
+bool exists_in_folder(const std::string& path, void* folder) {
+    // tinygltf also searches the working directory; only files beside the scene are meant.
+    return path.starts_with(*static_cast<const std::string*>(folder)) && std::filesystem::is_regular_file(path);
+}
+
+/// tinygltf's own version hands the name to wordexp(3), which runs `$(...)`.
+std::string same_path(const std::string& path, void*) { return path; }
+
+bool read_external(std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void*) {
+    try {
+        *bytes = read_bytes(path);
+        return true;
+    } catch (const std::exception& e) {
+        *error += e.what();
+        return false;
+    }
+}
+
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.size() > 300 ? text.substr(0, 300) + "..." : text;
+}
+
+}  // namespace
+
+void GltfFile::warn(const std::string& what) {
+    const std::string line = name + ": " + what;
+    if (std::find(warnings.begin(), warnings.end(), line) == warnings.end()) warnings.push_back(line);
+}
+
+GltfFile open_gltf(const std::filesystem::path& path) {
+    GltfFile file;
+    file.name = path.filename().string();
+    const std::vector<unsigned char> bytes = read_bytes(path);
+    check_before_parsing(file, parse_json(file, json_text(file, bytes)));
+
+    std::string folder = std::filesystem::absolute(path).parent_path().string(), error, unused;
+    tinygltf::TinyGLTF parser;
+    parser.SetImageLoader(keep_encoded, nullptr);
+    parser.SetFsCallbacks({exists_in_folder, same_path, read_external, tinygltf::WriteWholeFile, &folder});
+    bool parsed = false;
+    try {
+        const auto size = unsigned(bytes.size());
+        parsed = is_binary(bytes)
+                     ? parser.LoadBinaryFromMemory(&file.model, &error, &unused, bytes.data(), size, folder)
+                     : parser.LoadASCIIFromString(&file.model, &error, &unused,
+                                                  reinterpret_cast<const char*>(bytes.data()), size, folder);
+    } catch (const std::exception& e) {
+        error += e.what();
+    }
+    if (!parsed) file.fail("malformed glTF: " + one_line(error.empty() ? "unknown reason" : error));
+    return file;
+}
+
+std::string label(std::string_view kind, size_t index, const std::string& name) {
+    return std::string(kind) + " " + std::to_string(index) + (name.empty() ? "" : " \"" + name + "\"");
+}
+
+double number_of(const tinygltf::Value& object, const std::string& key, double otherwise) {
+    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber()) return otherwise;
+    return object.Get(key).GetNumberAsDouble();
+}
+
+int index_of(const tinygltf::Value& object, const std::string& key, int otherwise) {
+    const double value = number_of(object, key, otherwise);
+    return value >= -1 && value < 2147483647.0 ? int(value) : otherwise;
+}
+
+const tinygltf::Value* extension_of(const tinygltf::ExtensionMap& extensions, const std::string& key) {
+    const auto it = extensions.find(key);
+    return it != extensions.end() && it->second.IsObject() ? &it->second : nullptr;
+}
+
+}  // namespace lw

@@ -1,0 +1,39 @@
+// A parsed glTF file before it becomes a Scene: tinygltf's model, the name used in messages, and the warnings so far.
+// Only engine/scene/gltf*.{h,cpp} include this.
+#pragma once
+#include <tiny_gltf.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+
+namespace lw {
+
+struct GltfFile {
+    std::string name;  // file name without folder, the first word of every message
+    tinygltf::Model model;
+    std::vector<std::string> warnings;
+
+    /// Throws Error("name: what").
+    [[noreturn]] void fail(const std::string& what) const { throw Error(name + ": " + what); }
+    /// Adds a warning unless the same was said before.
+    void warn(const std::string& what);
+};
+
+/// Reads and parses a .glb or .gltf (told apart by content) with its external buffers; images stay encoded in
+/// Image::image. Throws Error for a truncated file, an unsupported extensionsRequired entry, a URI out of the folder.
+GltfFile open_gltf(const std::filesystem::path& path);
+
+/// `mesh 3 "lamp"`, or `mesh 3` when it has no name.
+std::string label(std::string_view kind, size_t index, const std::string& name);
+
+/// A member of a JSON extension object, or the default when absent or of another type.
+double number_of(const tinygltf::Value& object, const std::string& key, double otherwise);
+int index_of(const tinygltf::Value& object, const std::string& key, int otherwise);
+/// Extension `key` as an object, or nullptr.
+const tinygltf::Value* extension_of(const tinygltf::ExtensionMap& extensions, const std::string& key);
+
+}  // namespace lw

@@ -1,0 +1,196 @@
+#include "scene/gltf_geometry.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "scene/gltf_primitive.h"
+
+namespace lw {
+namespace {
+
+using LocalMesh = std::vector<LocalPrimitive>;
+
+/// One instance of a mesh.
+struct PlacedMesh {
+    size_t node;
+    const LocalMesh* mesh;
+    glm::dmat4 world;
+};
+
+std::vector<PlacedMesh> place_meshes(GltfFile& file, const std::vector<PlacedNode>& nodes, const Scene& scene,
+                                     std::map<int, LocalMesh>& meshes) {
+    std::vector<PlacedMesh> placed;
+    for (const PlacedNode& at : nodes) {
+        const tinygltf::Node& node = file.model.nodes[at.node];
+        if (node.mesh < 0) continue;
+        const std::string where = label("node", at.node, node.name);
+        if (size_t(node.mesh) >= file.model.meshes.size())
+            file.fail(where + ": there is no mesh " + std::to_string(node.mesh));
+        if (node.skin >= 0) file.warn("skins are ignored, figures stand in their bind pose");
+        const auto [it, is_new] = meshes.try_emplace(node.mesh);
+        const tinygltf::Mesh& source = file.model.meshes[size_t(node.mesh)];
+        if (is_new)
+            for (size_t i = 0; i < source.primitives.size(); ++i) {
+                if (!source.primitives[i].targets.empty())
+                    file.warn("morph targets are ignored, meshes keep their base shape");
+                it->second.push_back(decode_primitive(file, size_t(node.mesh), i, scene));
+            }
+        for (const glm::dmat4& world : instances_of(file, at)) placed.push_back({at.node, &it->second, world});
+    }
+    return placed;
+}
+
+glm::dvec3 transform_point(const glm::dmat4& m, vec3 p) { return glm::dvec3(m * glm::dvec4(glm::dvec3(p), 1)); }
+
+/// Cofactors times the sign of the determinant: the inverse transpose up to a positive factor, also when singular.
+glm::dmat3 normal_matrix(const glm::dmat4& world) {
+    const glm::dmat3 m(world);
+    const double sign = glm::determinant(m) < 0 ? -1 : 1;
+    return sign * glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+}
+
+vec3 unit_or(glm::dvec3 v, vec3 otherwise) {
+    const double length = glm::length(v);
+    return length > 0 && std::isfinite(length) ? vec3(v / length) : otherwise;
+}
+
+void find_origin(const GltfFile& file, const std::vector<PlacedMesh>& placed, Scene& scene) {
+    glm::dvec3 low(std::numeric_limits<double>::max()), high = -low;
+    uint64_t vertices = 0, triangles = 0;
+    for (const PlacedMesh& mesh : placed)
+        for (const LocalPrimitive& p : *mesh.mesh) {
+            vertices += p.positions.size();
+            triangles += p.triangles.size();
+            for (vec3 position : p.positions) {
+                const glm::dvec3 world = transform_point(mesh.world, position);
+                low = glm::min(low, world);
+                high = glm::max(high, world);
+            }
+        }
+    if (triangles == 0) file.fail("the scene has no triangles");
+    if (std::max(vertices, triangles) >= std::numeric_limits<uint>::max())
+        file.fail("the scene has more than 2^32 vertices or triangles");
+    const glm::dvec3 size = high - low;
+    if (!(size.x < 1e18 && size.y < 1e18 && size.z < 1e18)) file.fail("the scene is larger than 1e18 m");
+    scene.origin = low + size * 0.5;
+    scene.bounds = {vec3(low - scene.origin), vec3(high - scene.origin)};
+    scene.positions.reserve(vertices);
+    scene.normals.reserve(vertices);
+    scene.triangles.reserve(triangles);
+    scene.triangle_objects.reserve(triangles);
+}
+
+/// The optional array grows once any primitive has the attribute; vertices without it hold `otherwise`.
+template <class T>
+void append_optional(std::vector<T>& all, const std::vector<T>& own, size_t first, size_t count, T otherwise) {
+    if (all.empty() && own.empty()) return;
+    all.resize(first, otherwise);
+    if (own.empty())
+        all.resize(first + count, otherwise);
+    else
+        all.insert(all.end(), own.begin(), own.end());
+}
+
+void append_tangents(Scene& scene, const LocalPrimitive& p, const glm::dmat3& m, size_t first) {
+    std::vector<vec4> world;
+    const float mirror = glm::determinant(m) < 0 ? -1.0f : 1.0f;
+    for (vec4 t : p.tangents) world.emplace_back(unit_or(m * glm::dvec3(t), vec3(0)), t.w * mirror);
+    append_optional(scene.tangents, world, first, p.positions.size(), vec4(0, 0, 0, 1));
+}
+
+void append_vertices(const PlacedMesh& mesh, const LocalPrimitive& p, Scene& scene) {
+    const size_t first = scene.positions.size(), count = p.positions.size();
+    const glm::dmat3 for_normals = normal_matrix(mesh.world);
+    for (vec3 position : p.positions)
+        scene.positions.emplace_back(transform_point(mesh.world, position) - scene.origin);
+    for (vec3 normal : p.normals) scene.normals.push_back(unit_or(for_normals * glm::dvec3(normal), vec3(0, 1, 0)));
+    append_optional(scene.uv0, p.uv0, first, count, vec2(0));
+    append_optional(scene.uv1, p.uv1, first, count, vec2(0));
+    append_optional(scene.colors, p.colors, first, count, vec4(1));
+    append_tangents(scene, p, glm::dmat3(mesh.world), first);
+}
+
+void append_triangles(const PlacedMesh& mesh, const LocalPrimitive& p, size_t first_vertex, Scene& scene) {
+    const bool mirrored = glm::determinant(glm::dmat3(mesh.world)) < 0;
+    for (uvec3 t : p.triangles) {
+        if (mirrored) std::swap(t.y, t.z);
+        scene.triangles.push_back(t + uint(first_vertex));
+        scene.triangle_objects.push_back(uint(scene.objects.size()));
+    }
+}
+
+/// Chooses the material record of each primitive: the default one, or the thin or solid variant of a transmissive one.
+class MaterialChooser {
+  public:
+    MaterialChooser(const GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
+
+    uint choose(const LocalPrimitive& p) {
+        if (p.material < 0) return default_index();
+        const uint material = uint(p.material);
+        if (scene_.materials[material].transmission <= 0) return material;
+        const bool thin = !declares_volume(file_, p.material) && !watertight(p);
+        const bool first_use = !variants_.contains({material, true}) && !variants_.contains({material, false});
+        const auto [it, is_new] = variants_.try_emplace({material, thin}, material);
+        if (!is_new) return it->second;
+        if (!first_use) it->second = duplicate(material, thin);
+        uint& flags = scene_.materials[it->second].flags;
+        flags = thin ? flags | material_thin : flags & ~material_thin;
+        return it->second;
+    }
+
+  private:
+    uint duplicate(uint material, bool thin) {
+        const Material copy = scene_.materials[material];
+        const std::string name = scene_.material_names[material] + (thin ? " (thin)" : " (solid)");
+        scene_.materials.push_back(copy);
+        scene_.material_names.push_back(name);
+        return uint(scene_.materials.size() - 1);
+    }
+
+    uint default_index() {
+        if (!default_) {
+            default_ = uint(scene_.materials.size());
+            scene_.materials.push_back(default_material());
+            scene_.material_names.push_back("default");
+        }
+        return *default_;
+    }
+
+    bool watertight(const LocalPrimitive& p) {
+        const auto [it, is_new] = watertight_.try_emplace(&p, false);
+        if (is_new) it->second = is_watertight(p);
+        return it->second;
+    }
+
+    const GltfFile& file_;
+    Scene& scene_;
+    std::map<std::pair<uint, bool>, uint> variants_;  // by material of the file and thinness
+    std::map<const LocalPrimitive*, bool> watertight_;
+    std::optional<uint> default_;
+};
+
+}  // namespace
+
+std::vector<size_t> load_geometry(GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene) {
+    std::map<int, LocalMesh> meshes;
+    const std::vector<PlacedMesh> placed = place_meshes(file, nodes, scene, meshes);
+    find_origin(file, placed, scene);
+    MaterialChooser chooser(file, scene);
+    std::vector<size_t> object_nodes;
+    for (const PlacedMesh& mesh : placed) {
+        const std::string name = name_of(file, mesh.node, "node");
+        for (const LocalPrimitive& p : *mesh.mesh) {
+            if (p.triangles.empty()) continue;
+            const size_t first_vertex = scene.positions.size();
+            append_vertices(mesh, p, scene);
+            append_triangles(mesh, p, first_vertex, scene);
+            scene.objects.push_back({chooser.choose(p), -1});
+            scene.object_names.push_back(name);
+            object_nodes.push_back(mesh.node);
+        }
+    }
+    return object_nodes;
+}
+
+}  // namespace lw

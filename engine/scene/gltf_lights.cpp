@@ -1,0 +1,165 @@
+#include "scene/gltf_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+namespace lw {
+namespace {
+
+vec3 unit_or(glm::dvec3 v, vec3 otherwise) {
+    const double length = glm::length(v);
+    return length > 0 && std::isfinite(length) ? vec3(v / length) : otherwise;
+}
+
+Light punctual_light(const GltfFile& file, const tinygltf::Light& source, const PlacedNode& at,
+                     const std::string& where, const Scene& scene) {
+    Light light{};
+    if (source.type == "point")
+        light.type = light_point;
+    else if (source.type == "spot")
+        light.type = light_spot;
+    else if (source.type == "directional")
+        light.type = light_directional;
+    else
+        file.fail(where + ": unknown type \"" + source.type + "\"");
+    const std::vector<double>& c = source.color;
+    const glm::dvec3 color = c.size() >= 3 ? glm::dvec3(c[0], c[1], c[2]) : glm::dvec3(1);
+    light.intensity = vec3(glm::max(color * source.intensity, glm::dvec3(0)));
+    light.position = vec3(glm::dvec3(at.world[3]) - scene.origin);
+    light.direction = unit_or(-glm::dvec3(at.world[2]), vec3(0, -1, 0));
+    const double outer = std::clamp(source.spot.outerConeAngle, 1e-3, double(lw_pi) / 2);
+    light.cos_outer = float(std::cos(outer));
+    light.cos_inner = float(std::cos(std::clamp(source.spot.innerConeAngle, 0.0, outer)));
+    if (!std::isfinite(dot(light.intensity, vec3(1)))) file.fail(where + ": the intensity is not finite");
+    if (!std::isfinite(dot(light.position, vec3(1)))) file.fail(where + ": the position is too far away");
+    return light;
+}
+
+void add_punctual(const GltfFile& file, const PlacedNode& at, Scene& scene) {
+    const tinygltf::Node& node = file.model.nodes[at.node];
+    const auto* extension = extension_of(node.extensions, "KHR_lights_punctual");
+    if (!extension) return;
+    const int index = index_of(*extension, "light", -1);
+    if (index < 0 || size_t(index) >= file.model.lights.size())
+        file.fail(label("node", at.node, node.name) + ": there is no light " + std::to_string(index));
+    const tinygltf::Light& source = file.model.lights[size_t(index)];
+    scene.lights.push_back(punctual_light(file, source, at, label("light", size_t(index), source.name), scene));
+    const std::string& name = node.name.empty() ? source.name : node.name;
+    scene.light_names.push_back(name.empty() ? "light_" + std::to_string(scene.lights.size()) : name);
+}
+
+/// Adds a triangle to a mesh light: its area, and its share of the mean position and direction.
+void add_emitter(uint triangle, const Scene& scene, Light& light, glm::dvec3& moment, glm::dvec3& facing) {
+    const uvec3 t = scene.triangles[triangle];
+    const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
+    const glm::dvec3 normal = glm::cross(b - a, c - a) * 0.5;
+    const double area = glm::length(normal);
+    const bool both_sides = (scene.material_of(triangle).flags & material_double_sided) != 0;
+    light.area += float(both_sides ? 2 * area : area);
+    moment += (a + b + c) / 3.0 * area;
+    facing += normal;
+    light.emitter_count++;
+}
+
+void add_mesh_light(const std::string& name, const std::vector<size_t>& objects,
+                    const std::vector<uint>& first_triangle, Scene& scene) {
+    Light light{};
+    light.type = light_mesh;
+    light.first_emitter = uint(scene.emitters.size());
+    glm::dvec3 moment(0), facing(0);
+    double one_sided = 0;
+    for (size_t object : objects) {
+        light.intensity = glm::max(light.intensity, scene.materials[scene.objects[object].material].emissive);
+        scene.objects[object].light = int(scene.lights.size());
+        for (uint t = first_triangle[object]; t < first_triangle[object + 1]; ++t) {
+            const glm::dvec3 before = facing;
+            add_emitter(t, scene, light, moment, facing);
+            one_sided += glm::length(facing - before);
+            scene.emitters.push_back(t);
+        }
+    }
+    light.position =
+        one_sided > 0 ? vec3(moment / one_sided) : scene.positions[scene.triangles[first_triangle[objects[0]]].x];
+    light.direction = unit_or(facing, vec3(0, -1, 0));
+    scene.lights.push_back(light);
+    scene.light_names.push_back(name);
+}
+
+void add_mesh_lights(const std::vector<size_t>& object_nodes, Scene& scene) {
+    std::vector<uint> first_triangle(scene.objects.size() + 1, uint(scene.triangles.size()));
+    for (size_t t = scene.triangles.size(); t-- > 0;) first_triangle[scene.triangle_objects[t]] = uint(t);
+    for (size_t object = 0; object < object_nodes.size();) {
+        std::vector<size_t> emissive;
+        const size_t node = object_nodes[object];
+        const std::string name = scene.object_names[object];
+        for (; object < object_nodes.size() && object_nodes[object] == node; ++object) {
+            const vec3 emission = scene.materials[scene.objects[object].material].emissive;
+            if (std::max({emission.x, emission.y, emission.z}) > 0) emissive.push_back(object);
+        }
+        if (!emissive.empty()) add_mesh_light(name, emissive, first_triangle, scene);
+    }
+}
+
+double luminance(vec3 rgb) { return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z); }
+
+/// Luminous flux in lm; of a directional light what falls on the scene.
+double flux_of(const Light& light, const Scene& scene) {
+    const double strength = luminance(light.intensity), pi = double(lw_pi);
+    if (light.type == light_point) return 4 * pi * strength;
+    if (light.type == light_spot) return 2 * pi * (1 - double(light.cos_outer + light.cos_inner) / 2) * strength;
+    if (light.type == light_mesh) return pi * double(light.area) * strength;
+    const double radius = glm::length(glm::dvec3(scene.bounds[1] - scene.bounds[0])) / 2;
+    return pi * radius * radius * strength;
+}
+
+void warn_if_not_photometric(GltfFile& file, const Scene& scene) {
+    double flux = 0;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        flux += flux_of(light, scene);
+        const double limit = light.type == light_mesh ? 1e6 : light.type == light_directional ? 2e5 : 1e7;
+        if (luminance(light.intensity) <= limit) continue;
+        char text[64];
+        std::snprintf(text, sizeof text, "%.3g %s", luminance(light.intensity),
+                      light.type == light_mesh          ? "cd/m2"
+                      : light.type == light_directional ? "lx"
+                                                        : "cd");
+        file.warn("the lamp \"" + scene.light_names[i] + "\" has " + text +
+                  "; strengths are read as candela, lux and cd/m2 - is the file photometric?");
+        return;
+    }
+    if (flux < 1)
+        file.warn(
+            "all lamps together give less than 1 lm; strengths are read as candela, lux and cd/m2 - is the file "
+            "photometric?");
+}
+
+}  // namespace
+
+void make_unique(std::vector<std::string>& names) {
+    std::set<std::string> taken;
+    const std::set<std::string> given(names.begin(), names.end());
+    for (std::string& name : names) {
+        const std::string base = name;
+        for (int n = 2; taken.contains(name) || (name != base && given.contains(name)); ++n)
+            name = base + "_" + std::to_string(n);
+        taken.insert(name);
+    }
+}
+
+void load_lights(GltfFile& file, const std::vector<PlacedNode>& nodes, const std::vector<size_t>& object_nodes,
+                 Scene& scene) {
+    for (const PlacedNode& at : nodes) add_punctual(file, at, scene);
+    add_mesh_lights(object_nodes, scene);
+    if (scene.lights.empty())
+        file.fail(
+            "the scene has no light: add a point, spot or sun lamp (KHR_lights_punctual) or give a mesh an emissive "
+            "material");
+    make_unique(scene.light_names);
+    warn_if_not_photometric(file, scene);
+}
+
+}  // namespace lw

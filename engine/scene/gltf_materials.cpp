@@ -1,0 +1,132 @@
+#include "scene/gltf_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/gltf_textures.h"
+
+namespace lw {
+namespace {
+
+vec3 vector_of(const tinygltf::Value& object, const std::string& key, vec3 otherwise) {
+    if (!object.Has(key) || object.Get(key).ArrayLen() != 3) return otherwise;
+    const tinygltf::Value& array = object.Get(key);
+    return {float(array.Get(0).GetNumberAsDouble()), float(array.Get(1).GetNumberAsDouble()),
+            float(array.Get(2).GetNumberAsDouble())};
+}
+
+float unit(double value) { return float(std::clamp(value, 0.0, 1.0)); }
+
+vec3 vector_of(const std::vector<double>& v, vec3 otherwise) {
+    return v.size() >= 3 ? vec3(float(v[0]), float(v[1]), float(v[2])) : otherwise;
+}
+
+void read_base(const tinygltf::Material& source, Material& m) {
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    m.base_color = glm::clamp(vector_of(pbr.baseColorFactor, vec3(1)), 0.0f, 1.0f);
+    m.alpha = pbr.baseColorFactor.size() == 4 ? unit(pbr.baseColorFactor[3]) : 1.0f;
+    m.metallic = unit(pbr.metallicFactor);
+    m.roughness = unit(pbr.roughnessFactor);
+    m.emissive = glm::max(vector_of(source.emissiveFactor, vec3(0)), vec3(0));
+    m.alpha_cutoff = float(source.alphaCutoff);
+    m.normal_scale = float(source.normalTexture.scale);
+    if (source.doubleSided) m.flags |= material_double_sided;
+    if (source.alphaMode == "MASK") m.flags |= material_alpha_mask;
+    if (source.alphaMode == "BLEND") m.flags |= material_alpha_blend;
+}
+
+void read_extensions(const tinygltf::Material& source, Material& m) {
+    if (const auto* e = extension_of(source.extensions, "KHR_materials_emissive_strength"))
+        m.emissive *= float(std::max(number_of(*e, "emissiveStrength", 1), 0.0));
+    if (const auto* e = extension_of(source.extensions, "KHR_materials_specular")) {
+        m.specular = unit(number_of(*e, "specularFactor", 1));
+        m.specular_color = glm::max(vector_of(*e, "specularColorFactor", vec3(1)), vec3(0));
+    }
+    if (const auto* e = extension_of(source.extensions, "KHR_materials_ior")) m.ior = float(number_of(*e, "ior", 1.5));
+    if (const auto* e = extension_of(source.extensions, "KHR_materials_transmission"))
+        m.transmission = unit(number_of(*e, "transmissionFactor", 0));
+    if (extension_of(source.extensions, "KHR_materials_unlit")) {
+        m.flags |= material_unlit;
+        m.emissive = vec3(0);
+    }
+}
+
+void warn_about_ignored_textures(GltfFile& file, const tinygltf::Material& source, const std::string& where) {
+    const auto* specular = extension_of(source.extensions, "KHR_materials_specular");
+    if (specular && (specular->Has("specularTexture") || specular->Has("specularColorTexture")))
+        file.warn(where + ": specular textures of KHR_materials_specular are ignored");
+}
+
+void read_textures(TextureLoader& loader, const tinygltf::Material& source, const std::string& where, Material& m) {
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    m.base_color_texture = loader.slot(pbr.baseColorTexture, true, where + ": baseColorTexture");
+    m.metallic_roughness_texture =
+        loader.slot(pbr.metallicRoughnessTexture, false, where + ": metallicRoughnessTexture");
+    tinygltf::TextureInfo normal;
+    normal.index = source.normalTexture.index;
+    normal.texCoord = source.normalTexture.texCoord;
+    normal.extensions = source.normalTexture.extensions;
+    m.normal_texture = loader.slot(normal, false, where + ": normalTexture");
+    m.emissive_texture = loader.slot(source.emissiveTexture, true, where + ": emissiveTexture");
+    if (const auto* e = extension_of(source.extensions, "KHR_materials_transmission"))
+        m.transmission_texture =
+            loader.slot(texture_info(*e, "transmissionTexture"), false, where + ": transmissionTexture");
+}
+
+}  // namespace
+
+Material default_material() {
+    Material m{};
+    m.base_color = vec3(1);
+    m.alpha = 1;
+    m.metallic = 1;
+    m.roughness = 1;
+    m.specular = 1;
+    m.specular_color = vec3(1);
+    m.ior = 1.5f;
+    m.alpha_cutoff = 0.5f;
+    m.normal_scale = 1;
+    for (TextureSlot* slot : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+                              &m.emissive_texture, &m.transmission_texture})
+        *slot = no_texture();
+    return m;
+}
+
+void load_materials(GltfFile& file, Scene& scene) {
+    TextureLoader loader(file, scene);
+    for (size_t i = 0; i < file.model.materials.size(); ++i) {
+        const tinygltf::Material& source = file.model.materials[i];
+        const std::string where = label("material", i, source.name);
+        Material m = default_material();
+        read_base(source, m);
+        read_extensions(source, m);
+        read_textures(loader, source, where, m);
+        warn_about_ignored_textures(file, source, where);
+        if (!std::isfinite(m.ior) || (m.ior != 0 && m.ior < 1)) file.fail(where + ": ior must be 0 or at least 1");
+        if (!std::isfinite(m.emissive.x + m.emissive.y + m.emissive.z))
+            file.fail(where + ": the emission is not finite");
+        scene.materials.push_back(m);
+        scene.material_names.push_back(source.name.empty() ? "material_" + std::to_string(i) : source.name);
+    }
+}
+
+bool declares_volume(const GltfFile& file, int material) {
+    if (material < 0) return false;
+    const auto* e = extension_of(file.model.materials[size_t(material)].extensions, "KHR_materials_volume");
+    return e && number_of(*e, "thicknessFactor", 0) > 0;
+}
+
+VertexNeeds vertex_needs(const Scene& scene) {
+    VertexNeeds needs;
+    for (const Material& m : scene.materials) {
+        for (const TextureSlot& slot : {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture,
+                                        m.emissive_texture, m.transmission_texture}) {
+            if (slot.texture < 0) continue;
+            (slot.texcoord == 0 ? needs.uv0 : needs.uv1) = true;
+        }
+        needs.tangents |= m.normal_texture.texture >= 0;
+    }
+    return needs;
+}
+
+}  // namespace lw

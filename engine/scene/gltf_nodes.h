@@ -1,0 +1,25 @@
+// The node tree of a glTF file flattened: which nodes of the scene are placed, and where, in double precision.
+#pragma once
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/gltf_file.h"
+
+namespace lw {
+
+struct PlacedNode {
+    size_t node;       // index in the model
+    glm::dmat4 world;  // node space to world
+};
+
+/// Nodes of the default scene in depth-first order. Throws Error for a cycle or a node with two parents.
+std::vector<PlacedNode> place_nodes(const GltfFile& file);
+
+/// World matrices of the instances of a mesh node: one, or those of EXT_mesh_gpu_instancing.
+std::vector<glm::dmat4> instances_of(const GltfFile& file, const PlacedNode& placed);
+
+/// The node's name, or `otherwise` with its number.
+std::string name_of(const GltfFile& file, size_t node, const std::string& otherwise);
+
+}  // namespace lw

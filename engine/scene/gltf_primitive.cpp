@@ -1,0 +1,201 @@
+#include "scene/gltf_primitive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene/gltf_accessor.h"
+#include "scene/tangents.h"
+
+namespace lw {
+namespace {
+
+bool is_finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Corner triples from a list, strip or fan; the corners of a strip keep the front face of its first triangle.
+std::vector<uvec3> triangles_of(const std::vector<uint32_t>& corners, int mode) {
+    std::vector<uvec3> triangles;
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+        triangles.reserve(corners.size() / 3);
+        for (size_t i = 0; i + 2 < corners.size(); i += 3)
+            triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
+        return triangles;
+    }
+    for (size_t i = 0; i + 2 < corners.size(); ++i) {
+        uvec3 t(corners[i], corners[i + 1], corners[i + 2]);
+        if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+            t.x = corners[0];
+        else if (i % 2)
+            std::swap(t.x, t.y);
+        if (t.x != t.y && t.y != t.z && t.z != t.x) triangles.push_back(t);  // repeated corners only stitch strips
+    }
+    return triangles;
+}
+
+std::vector<uvec3> read_triangles(GltfFile& file, const tinygltf::Primitive& primitive, size_t vertex_count,
+                                  const std::string& where) {
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (mode < TINYGLTF_MODE_TRIANGLES || mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+        file.warn(where + ": points and lines are skipped");
+        return {};
+    }
+    std::vector<uint32_t> corners;
+    if (primitive.indices >= 0) {
+        corners = read_indices(file, primitive.indices, where + ": indices");
+    } else {
+        corners.resize(vertex_count);
+        std::iota(corners.begin(), corners.end(), 0u);
+    }
+    for (uint32_t corner : corners)
+        if (corner >= vertex_count)
+            file.fail(where + ": index " + std::to_string(corner) + " is out of range, there are " +
+                      std::to_string(vertex_count) + " vertices");
+    if (mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3)
+        file.warn(where + ": the last triangle is incomplete and skipped");
+    return triangles_of(corners, mode);
+}
+
+/// Source vertex of every kept vertex; renumbers the triangles. Flat: each corner its own vertex.
+std::vector<uint32_t> keep_vertices(std::vector<uvec3>& triangles, size_t vertex_count, bool flat) {
+    constexpr uint32_t unseen = ~0u;
+    std::vector<uint32_t> kept, place(flat ? 0 : vertex_count, unseen);
+    for (uvec3& t : triangles) {
+        for (int c = 0; c < 3; ++c) {
+            const uint32_t source = t[c];
+            if (flat || place[source] == unseen) {
+                if (!flat) place[source] = uint32_t(kept.size());
+                t[c] = uint32_t(kept.size());
+                kept.push_back(source);
+            } else {
+                t[c] = place[source];
+            }
+        }
+    }
+    return kept;
+}
+
+vec3 face_normal(const LocalPrimitive& p, uvec3 t) {
+    const glm::dvec3 a(p.positions[t.x]);
+    const glm::dvec3 n = glm::cross(glm::dvec3(p.positions[t.y]) - a, glm::dvec3(p.positions[t.z]) - a);
+    const double length = glm::length(n);
+    return length > 0 && std::isfinite(length) ? vec3(n / length) : vec3(0, 1, 0);
+}
+
+/// Unit normals; where there is none that can be used, that of a face at the vertex.
+void repair_normals(LocalPrimitive& p) {
+    p.normals.resize(p.positions.size(), vec3(0));
+    const auto usable = [](vec3 n) { return is_finite(n) && dot(n, n) > 1e-12f && dot(n, n) < 1e12f; };
+    for (vec3& n : p.normals) n = usable(n) ? normalize(n) : vec3(0);
+    for (uvec3 t : p.triangles)
+        for (int c = 0; c < 3; ++c)
+            if (p.normals[t[c]] == vec3(0)) p.normals[t[c]] = face_normal(p, t);
+}
+
+/// Attribute reader of one primitive: rows for the kept vertices, or nothing when the attribute is absent.
+class AttributeReader {
+  public:
+    AttributeReader(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& where)
+        : file_(file), primitive_(primitive), where_(where) {}
+
+    std::optional<FloatRows> rows(const std::string& name, size_t least, size_t most) const {
+        const auto it = primitive_.attributes.find(name);
+        if (it == primitive_.attributes.end()) return {};
+        FloatRows found = read_floats(file_, it->second, where_ + ": " + name);
+        if (found.components < least || found.components > most)
+            file_.fail(where_ + ": " + name + " has the wrong type");
+        return found;
+    }
+
+    /// Vectors of N floats; a component the file lacks (alpha of a colour) is 1.
+    template <int N>
+    std::vector<glm::vec<N, float>> gather(const std::string& name, size_t least, const std::vector<uint32_t>& kept,
+                                           size_t vertex_count) const {
+        std::vector<glm::vec<N, float>> vectors;
+        const std::optional<FloatRows> found = rows(name, least, N);
+        if (!found) return vectors;
+        if (found->count != vertex_count) file_.fail(where_ + ": " + name + " and POSITION differ in length");
+        vectors.assign(kept.size(), glm::vec<N, float>(1));
+        for (size_t i = 0; i < kept.size(); ++i)
+            for (size_t c = 0; c < found->components; ++c) {
+                const float value = found->row(kept[i])[c];
+                vectors[i][glm::length_t(c)] = std::isfinite(value) ? value : 0.0f;
+            }
+        return vectors;
+    }
+
+  private:
+    const GltfFile& file_;
+    const tinygltf::Primitive& primitive_;
+    const std::string& where_;
+};
+
+void read_optional(const AttributeReader& reader, const std::vector<uint32_t>& kept, size_t vertex_count,
+                   const Scene& scene, LocalPrimitive& p) {
+    const VertexNeeds needs = vertex_needs(scene);
+    if (needs.uv0) p.uv0 = reader.gather<2>("TEXCOORD_0", 2, kept, vertex_count);
+    if (needs.uv1) p.uv1 = reader.gather<2>("TEXCOORD_1", 2, kept, vertex_count);
+    p.colors = reader.gather<4>("COLOR_0", 3, kept, vertex_count);
+    const Material m = p.material < 0 ? default_material() : scene.materials[size_t(p.material)];
+    if (m.normal_texture.texture < 0) return;
+    p.tangents = reader.gather<4>("TANGENT", 4, kept, vertex_count);
+    const std::vector<vec2>& uv = m.normal_texture.texcoord == 0 ? p.uv0 : p.uv1;
+    if (p.tangents.empty() && !uv.empty()) p.tangents = make_tangents(p.positions, p.normals, uv, p.triangles);
+}
+
+}  // namespace
+
+LocalPrimitive decode_primitive(GltfFile& file, size_t mesh, size_t index, const Scene& scene) {
+    const tinygltf::Mesh& owner = file.model.meshes[mesh];
+    const tinygltf::Primitive& source = owner.primitives[index];
+    const std::string where = label("mesh", mesh, owner.name) + ": primitive " + std::to_string(index);
+    if (!source.attributes.contains("POSITION")) file.fail(where + " has no POSITION");
+    if (source.material >= int(file.model.materials.size()))
+        file.fail(where + ": there is no material " + std::to_string(source.material));
+
+    LocalPrimitive p;
+    p.material = source.material;
+    const AttributeReader reader(file, source, where);
+    const FloatRows positions = *reader.rows("POSITION", 3, 3);
+    p.triangles = read_triangles(file, source, positions.count, where);
+    const bool flat = !source.attributes.contains("NORMAL");
+    const std::vector<uint32_t> kept = keep_vertices(p.triangles, positions.count, flat);
+    p.positions.reserve(kept.size());
+    for (uint32_t vertex : kept) {
+        const float* v = positions.row(vertex);
+        p.positions.emplace_back(v[0], v[1], v[2]);
+        if (!is_finite(p.positions.back()))
+            file.fail(where + ": the position of vertex " + std::to_string(vertex) + " is not finite");
+    }
+    p.normals = reader.gather<3>("NORMAL", 3, kept, positions.count);
+    repair_normals(p);
+    read_optional(reader, kept, positions.count, scene, p);
+    return p;
+}
+
+bool is_watertight(const LocalPrimitive& primitive) {
+    // Vertices at the same position get the same number: their rank among the sorted positions.
+    const std::vector<vec3>& positions = primitive.positions;
+    const auto less = [](vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
+    std::vector<vec3> sorted = positions;
+    std::sort(sorted.begin(), sorted.end(), less);
+    const auto rank = [&](uint vertex) {
+        return uint64_t(std::lower_bound(sorted.begin(), sorted.end(), positions[vertex], less) - sorted.begin());
+    };
+    std::vector<uint64_t> edges;
+    for (uvec3 t : primitive.triangles) {
+        const uint64_t corner[3] = {rank(t.x), rank(t.y), rank(t.z)};
+        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
+        for (int c = 0; c < 3; ++c) {
+            const auto [low, high] = std::minmax(corner[c], corner[(c + 1) % 3]);
+            edges.push_back(low << 32 | high);
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    for (size_t i = 0; i < edges.size(); i += 2) {
+        if (i + 1 >= edges.size() || edges[i] != edges[i + 1]) return false;
+        if (i + 2 < edges.size() && edges[i + 2] == edges[i]) return false;
+    }
+    return !edges.empty();
+}
+
+}  // namespace lw

@@ -1,0 +1,137 @@
+#include "scene/gltf_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "scene/gltf_accessor.h"
+
+namespace lw {
+namespace {
+
+uint wrap_of(int mode) {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return wrap_clamp;
+    return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? wrap_mirror : wrap_repeat;
+}
+
+/// KHR_texture_transform: uv' = translation * rotation * scale * uv.
+void read_transform(const tinygltf::Value& transform, TextureSlot& slot) {
+    const auto pair = [&](const char* key, double otherwise) {
+        if (!transform.Has(key) || transform.Get(key).ArrayLen() != 2) return glm::dvec2(otherwise);
+        return glm::dvec2(transform.Get(key).Get(0).GetNumberAsDouble(), transform.Get(key).Get(1).GetNumberAsDouble());
+    };
+    const glm::dvec2 offset = pair("offset", 0), scale = pair("scale", 1);
+    const double angle = number_of(transform, "rotation", 0), c = std::cos(angle), s = std::sin(angle);
+    slot.row0 = vec3(c * scale.x, s * scale.y, offset.x);
+    slot.row1 = vec3(-s * scale.x, c * scale.y, offset.y);
+    slot.texcoord = uint(index_of(transform, "texCoord", int(slot.texcoord)));
+}
+
+std::span<const unsigned char> encoded_bytes(const GltfFile& file, const tinygltf::Image& image,
+                                             const std::string& where) {
+    if (image.bufferView >= 0) return read_view(file, image.bufferView, where);
+    return image.image;
+}
+
+/// RGBA8 of a PNG, JPEG, BMP or other image stb_image knows; nothing when it does not.
+std::optional<tinygltf::Image> decode(std::span<const unsigned char> bytes) {
+    tinygltf::Image image;
+    std::string error, warning;
+    if (bytes.empty() || bytes.size() > size_t(std::numeric_limits<int>::max())) return {};
+    if (!tinygltf::LoadImageData(&image, 0, &error, &warning, 0, 0, bytes.data(), int(bytes.size()), nullptr))
+        return {};
+    const bool known =
+        image.component == 4 && (image.bits == 8 || image.bits == 16) && image.width > 0 && image.height > 0;
+    if (!known || image.image.size() < size_t(image.width) * size_t(image.height) * 4 * size_t(image.bits / 8))
+        return {};
+    return image;
+}
+
+uint packed_texel(const tinygltf::Image& image, size_t texel) {
+    const size_t step = size_t(image.bits / 8), high = step - 1;  // of 16-bit channels the high byte
+    uint bits = 0;
+    for (size_t c = 0; c < 4; ++c) bits |= uint(image.image[(texel * 4 + c) * step + high]) << (8 * c);
+    return bits;
+}
+
+}  // namespace
+
+TextureSlot no_texture() { return {-1, 0, vec3(1, 0, 0), vec3(0, 1, 0)}; }
+
+tinygltf::TextureInfo texture_info(const tinygltf::Value& extension, const std::string& key) {
+    tinygltf::TextureInfo reference;
+    if (!extension.Has(key) || !extension.Get(key).IsObject()) return reference;
+    const tinygltf::Value& object = extension.Get(key);
+    reference.index = index_of(object, "index", -1);
+    reference.texCoord = index_of(object, "texCoord", 0);
+    if (object.Has("extensions"))
+        for (const std::string& name : object.Get("extensions").Keys())
+            reference.extensions[name] = object.Get("extensions").Get(name);
+    return reference;
+}
+
+TextureSlot TextureLoader::slot(const tinygltf::TextureInfo& reference, bool srgb, const std::string& where) {
+    TextureSlot slot = no_texture();
+    if (reference.index < 0) return slot;
+    if (size_t(reference.index) >= file_.model.textures.size())
+        file_.fail(where + ": there is no texture " + std::to_string(reference.index));
+    slot.texcoord = uint(std::max(reference.texCoord, 0));
+    if (const auto* transform = extension_of(reference.extensions, "KHR_texture_transform"))
+        read_transform(*transform, slot);
+    if (slot.texcoord > 1) {
+        file_.warn(where + ": TEXCOORD_" + std::to_string(slot.texcoord) +
+                   " is not supported, the texture is left out");
+        return no_texture();
+    }
+    const tinygltf::Texture& source = file_.model.textures[size_t(reference.index)];
+    slot.texture = texture(source.source, source.sampler, srgb, where);
+    return slot;
+}
+
+int TextureLoader::texture(int image, int sampler, bool srgb, const std::string& where) {
+    const auto [it, is_new] = textures_.try_emplace({image, sampler, srgb}, -1);
+    if (!is_new) return it->second;
+    const std::optional<Picture> found = picture(image, where);
+    if (!found) return -1;
+    Texture t{found->first_texel, found->width, found->height, wrap_repeat, wrap_repeat, srgb ? 1u : 0u, 0u};
+    if (sampler >= 0) {
+        if (size_t(sampler) >= file_.model.samplers.size())
+            file_.fail(where + ": there is no sampler " + std::to_string(sampler));
+        const tinygltf::Sampler& source = file_.model.samplers[size_t(sampler)];
+        t.wrap_s = wrap_of(source.wrapS);
+        t.wrap_t = wrap_of(source.wrapT);
+        t.nearest = source.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? 1u : 0u;
+    }
+    it->second = int(scene_.textures.size());
+    scene_.textures.push_back(t);
+    return it->second;
+}
+
+std::optional<TextureLoader::Picture> TextureLoader::picture(int index, const std::string& where) {
+    const auto [it, is_new] = pictures_.try_emplace(index);
+    if (!is_new) return it->second;
+    if (index < 0 || size_t(index) >= file_.model.images.size()) {
+        file_.warn(where + ": has no image in a format that can be decoded; its factor is used");
+        return {};
+    }
+    const tinygltf::Image& source = file_.model.images[size_t(index)];
+    const std::string name = label("image", size_t(index), source.name);
+    const std::optional<tinygltf::Image> decoded = decode(encoded_bytes(file_, source, name));
+    if (!decoded) {
+        file_.warn(name +
+                   (source.bufferView < 0 && source.image.empty() ? ": is missing"
+                                                                  : ": cannot be decoded (PNG and JPEG can)") +
+                   "; the factor of " + where + " is used instead");
+        return {};
+    }
+    const size_t first = scene_.texels.size(), count = size_t(decoded->width) * size_t(decoded->height);
+    if (first + count > std::numeric_limits<uint>::max())
+        file_.fail(name + ": the textures have more than 2^32 texels");
+    scene_.texels.resize(first + count);
+    for (size_t i = 0; i < count; ++i) scene_.texels[first + i] = packed_texel(*decoded, i);
+    it->second = Picture{uint(first), uint(decoded->width), uint(decoded->height)};
+    return it->second;
+}
+
+}  // namespace lw

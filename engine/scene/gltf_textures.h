@@ -1,0 +1,37 @@
+// glTF textures decoded to RGBA8 texels, each image once, each (image, sampler, encoding) one Texture record.
+#pragma once
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "scene/gltf_file.h"
+#include "scene/scene.h"
+
+namespace lw {
+
+class TextureLoader {
+  public:
+    TextureLoader(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
+
+    /// The slot for a material's reference; texture = -1 (with a warning when an image was meant) if there is none.
+    TextureSlot slot(const tinygltf::TextureInfo& reference, bool srgb, const std::string& where);
+
+  private:
+    struct Picture {
+        uint first_texel, width, height;
+    };
+    std::optional<Picture> picture(int image, const std::string& where);
+    int texture(int image, int sampler, bool srgb, const std::string& where);
+
+    GltfFile& file_;
+    Scene& scene_;
+    std::map<int, std::optional<Picture>> pictures_;      // by image
+    std::map<std::tuple<int, int, bool>, int> textures_;  // by image, sampler, sRGB
+};
+
+/// A reference to a texture stored in an extension object.
+tinygltf::TextureInfo texture_info(const tinygltf::Value& extension, const std::string& key);
+
+TextureSlot no_texture();
+
+}  // namespace lw

@@ -1,0 +1,57 @@
+// A building as plain arrays: world-space triangles, materials, lamps and cameras. Metres, right-handed, Y up.
+// All positions are relative to `origin` (double), so that a scene far from zero keeps its precision.
+// The arrays are the GPU's arrays: records come from shaders/scene.h, scalar layout.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "shaders/scene.h"
+
+namespace lw {
+
+/// A pinhole camera; the view looks along -Z of `rotation`, Y up (glTF).
+struct Camera {
+    std::string name;
+    vec3 position{0};
+    mat3 rotation{1};      // columns: right, up, back
+    float yfov = 0.9f;     // radians; of an orthographic camera an equivalent perspective is used
+    float aspect = 0;      // width / height, 0 when the file leaves it to the window
+    float near = 0.05f;    // m
+};
+
+struct Scene {
+    std::filesystem::path path;
+    glm::dvec3 origin{0};  // world position = origin + stored position
+
+    // Vertices of all instances in world space. Optional arrays are empty when no material needs them.
+    std::vector<vec3> positions;
+    std::vector<vec3> normals;   // unit shading normals, per vertex (flat ones are duplicated vertices)
+    std::vector<vec2> uv0, uv1;  // texture coordinates
+    std::vector<vec4> colors;    // linear RGBA multipliers
+    std::vector<vec4> tangents;  // xyz + handedness; only when a normal map exists
+
+    std::vector<uvec3> triangles;            // vertex indices; front face counter-clockwise (mirroring corrected)
+    std::vector<uint> triangle_objects;      // object of each triangle
+    std::vector<Object> objects;
+    std::vector<std::string> object_names;   // node name, per object
+    std::vector<Material> materials;
+    std::vector<std::string> material_names;
+    std::vector<Texture> textures;
+    std::vector<uint> texels;                // RGBA8 of all textures
+
+    std::vector<Light> lights;
+    std::vector<std::string> light_names;    // unique; per light
+    std::vector<uint> emitters;              // triangle ids of mesh lights, grouped per light
+    std::vector<Camera> cameras;             // at least one
+
+    std::array<vec3, 2> bounds{vec3(0), vec3(0)};  // min, max of positions
+    uint64_t content_hash = 0;               // geometry, materials, lamps' places and shapes; not their powers or cameras
+    std::vector<std::string> warnings;       // each said once: what was ignored or replaced
+
+    const Material& material_of(uint triangle) const { return materials[objects[triangle_objects[triangle]].material]; }
+};
+
+}  // namespace lw

@@ -1,0 +1,135 @@
+#include "trace/emitter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trace/sampling.h"
+
+namespace lw {
+namespace {
+
+vec3 per_intensity(vec3 value, vec3 intensity) {
+    vec3 result(0);
+    for (int c = 0; c < 3; ++c)
+        if (intensity[c] > 0) result[c] = value[c] / intensity[c];
+    return result;
+}
+
+/// KHR_lights_punctual: t^2 with t linear in the cosine between the cones.
+float spot_falloff(const Light& light, float cosine) {
+    const float width = std::max(light.cos_inner - light.cos_outer, 1e-6f);
+    const float t = clamp((cosine - light.cos_outer) / width, 0.0f, 1.0f);
+    return t * t;
+}
+
+/// Cosine to the axis, distributed as the falloff: inner cone uniform, penumbra cubic.
+float sample_spot_cosine(const Light& light, float u) {
+    const float inner = 1 - light.cos_inner, rim = (light.cos_inner - light.cos_outer) / 3;
+    const float x = u * (inner + rim);
+    if (x < inner) return 1 - x;
+    const float t = rim > 0 ? std::cbrt(std::max(0.0f, 1 - (x - inner) / rim)) : 1.0f;
+    return light.cos_outer + t * (light.cos_inner - light.cos_outer);
+}
+
+}  // namespace
+
+Emitters::Emitters(const Scene& scene) : scene_(scene), surfaces_(scene), area_below_(scene.emitters.size()) {
+    centre_ = 0.5f * (scene.bounds[0] + scene.bounds[1]);
+    radius_ = 0.5f * length(scene.bounds[1] - scene.bounds[0]) * 1.001f;
+    for (const Light& light : scene.lights) {
+        double sum = 0;
+        for (uint i = light.first_emitter; i < light.first_emitter + light.emitter_count; ++i) {
+            const uvec3 t = scene.triangles[scene.emitters[i]];
+            const vec3 a = scene.positions[t.x];
+            sum += 0.5 * double(length(cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
+            area_below_[i] = float(sum);
+        }
+    }
+}
+
+float Emitters::unit_flux(uint index) const {
+    const Light& light = scene_.lights[index];
+    switch (light.type) {
+        case light_point: return 4 * lw_pi;
+        case light_spot: return 2 * lw_pi * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
+        case light_directional: return lw_pi * radius_ * radius_;
+        default: return lw_pi * light.area;
+    }
+}
+
+Emission Emitters::emit(uint index, const std::array<float, 5>& u) const {
+    const Light& light = scene_.lights[index];
+    const vec3 flux(unit_flux(index));
+    if (light.type == light_point) return {light.position, vec3(0), direction_of(1 - 2 * u[2], u[3]), flux};
+    if (light.type == light_spot)
+        return {light.position, vec3(0), frame_around(light.direction) * direction_of(sample_spot_cosine(light, u[2]), u[3]), flux};
+    if (light.type == light_directional) {
+        const vec2 disc = sample_disc(u[0], u[1]) * radius_;
+        const mat3 frame = frame_around(light.direction);
+        return {centre_ + frame * vec3(disc.x, disc.y, -radius_), vec3(0), light.direction, flux};
+    }
+    const auto first = area_below_.begin() + light.first_emitter, last = first + light.emitter_count;
+    const float total = *(last - 1);
+    const auto chosen = std::min(std::upper_bound(first, last, u[0] * total), last - 1);
+    const float below = chosen == first ? 0.0f : *(chosen - 1);
+    const float within = clamp((u[0] * total - below) / std::max(*chosen - below, 1e-30f), 0.0f, 0.99999994f);
+    const uint triangle = scene_.emitters[size_t(chosen - area_below_.begin())];
+    const Surface s = surfaces_.surface_at(triangle, sample_triangle(within, u[1]));
+    const bool back = (s.flags & material_double_sided) && u[4] >= 0.5f;
+    const float sides = s.flags & material_double_sided ? 2.0f : 1.0f;
+    const vec3 n = back ? -s.geometric_normal : s.geometric_normal;
+    const vec3 relative = per_intensity(s.emissive, light.intensity);
+    return {s.position, n, frame_around(n) * sample_cosine(u[2], u[3]), relative * (lw_pi * total * sides)};
+}
+
+std::optional<Incident> Emitters::arrive(uint index, vec3 point, float u, float v) const {
+    const Light& light = scene_.lights[index];
+    if (light.type == light_directional)
+        return Incident{-light.direction, point - light.direction * (4 * radius_), vec3(1), 0};
+    if (light.type != light_mesh) {
+        const vec3 path = light.position - point;
+        const float d2 = dot(path, path);
+        if (!(d2 > 0)) return std::nullopt;
+        const vec3 to_light = path / std::sqrt(d2);
+        const float falloff = light.type == light_spot ? spot_falloff(light, -dot(to_light, light.direction)) : 1.0f;
+        if (falloff <= 0) return std::nullopt;
+        return Incident{to_light, light.position, vec3(falloff / d2), 0};
+    }
+    const auto first = area_below_.begin() + light.first_emitter, last = first + light.emitter_count;
+    const float total = *(last - 1);
+    const auto chosen = std::min(std::upper_bound(first, last, u * total), last - 1);
+    const float below = chosen == first ? 0.0f : *(chosen - 1);
+    const float within = clamp((u * total - below) / std::max(*chosen - below, 1e-30f), 0.0f, 0.99999994f);
+    const uint triangle = scene_.emitters[size_t(chosen - area_below_.begin())];
+    const Surface s = surfaces_.surface_at(triangle, sample_triangle(within, v));
+    const vec3 path = s.position - point;
+    const float distance = length(path);
+    if (!(distance > 0)) return std::nullopt;
+    const vec3 to_light = path / distance;
+    const float pdf = arrive_pdf(s, distance, to_light);
+    const vec3 emitted = radiance(s, -to_light);
+    if (!(pdf > 0) || (emitted.x + emitted.y + emitted.z) <= 0) return std::nullopt;
+    return Incident{to_light, s.position, emitted, pdf};
+}
+
+vec3 Emitters::radiance(const Surface& s, vec3 to_view) const {
+    if (s.light < 0) return vec3(0);
+    if (dot(s.geometric_normal, to_view) <= 0 && !(s.flags & material_double_sided)) return vec3(0);
+    return per_intensity(s.emissive, scene_.lights[size_t(s.light)].intensity);
+}
+
+float Emitters::arrive_pdf(const Surface& s, float distance, vec3 to_light) const {
+    const Light& light = scene_.lights[size_t(s.light)];
+    const float total = area_below_[light.first_emitter + light.emitter_count - 1];
+    const float cosine = abs(dot(s.geometric_normal, to_light));
+    return cosine > 1e-6f ? distance * distance / (cosine * total) : 0.0f;
+}
+
+std::vector<vec3> light_weights(const Scene& scene, const std::vector<float>& factors) {
+    std::vector<vec3> weights;
+    for (size_t i = 0; i < scene.lights.size(); ++i)
+        weights.push_back(scene.lights[i].intensity * (i < factors.size() ? factors[i] : 1.0f));
+    return weights;
+}
+
+}  // namespace lw

@@ -1,0 +1,185 @@
+#include "trace/ray_caster.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+
+namespace lw {
+namespace {
+
+RTCScene as_scene(void* handle) { return static_cast<RTCScene>(handle); }
+
+RTCRay make_ray(vec3 origin, vec3 direction, float far) {
+    RTCRay ray{};
+    ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
+    ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
+    ray.tnear = 0, ray.tfar = far, ray.mask = 0xffffffffu;
+    return ray;
+}
+
+void intersect(RTCScene scene, RTCRayHit& query) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene, &query, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &query);
+#endif
+}
+
+bool occluded(RTCScene scene, RTCRay& ray) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcOccluded1(scene, &ray, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+#endif
+    return ray.tfar < 0;
+}
+
+struct PointVisit {
+    void (*visit)(void*, uint);
+    void* context;
+};
+
+bool on_point_query(RTCPointQueryFunctionArguments* arguments) {
+    const auto* target = static_cast<const PointVisit*>(arguments->userPtr);
+    target->visit(target->context, arguments->primID);
+    return false;  // the radius stays
+}
+
+}  // namespace
+
+RayCaster::RayCaster(const Scene& scene) : scene_(scene), surfaces_(scene) {
+    RTCDevice device = rtcNewDevice(nullptr);
+    if (!device) throw Error("Embree: no device could be created");
+    device_ = device;
+    RTCScene embree_scene = rtcNewScene(device);
+    embree_scene_ = embree_scene;
+    rtcSetSceneFlags(embree_scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(embree_scene, RTC_BUILD_QUALITY_HIGH);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Embree reads 16 bytes of the last vertex, so it gets its own padded copy.
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                 sizeof(vec3), scene.positions.size()));
+    auto* indices = static_cast<uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                sizeof(uvec3), scene.triangles.size()));
+    if (!vertices || !indices) throw Error(scene.path.filename().string() + ": not enough memory for the ray caster");
+    std::copy_n(&scene.positions.data()->x, 3 * scene.positions.size(), vertices);
+    std::copy(scene.triangles.begin(), scene.triangles.end(), indices);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(embree_scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(embree_scene);
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+        throw Error(scene.path.filename().string() + ": Embree could not build its hierarchy");
+
+    const vec3 reach = max(abs(scene.bounds[0]), abs(scene.bounds[1]));
+    epsilon_ = 4e-6f * std::max({reach.x, reach.y, reach.z, 1e-30f});
+    for (const Material& m : scene.materials) {
+        has_holes_ |= (m.flags & (material_alpha_mask | material_alpha_blend)) != 0;
+        has_thin_glass_ |= (m.flags & material_thin) != 0 && m.transmission > 0;
+    }
+}
+
+RayCaster::~RayCaster() {
+    if (embree_scene_) rtcReleaseScene(as_scene(embree_scene_));
+    if (device_) rtcReleaseDevice(static_cast<RTCDevice>(device_));
+}
+
+std::optional<Hit> RayCaster::nearest_triangle(vec3 origin, vec3 direction, float max_distance) const {
+    RTCRayHit query{};
+    query.ray = make_ray(origin, direction, max_distance);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    intersect(as_scene(embree_scene_), query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{query.hit.primID, {query.hit.u, query.hit.v}, query.ray.tfar};
+}
+
+bool RayCaster::is_hole(const Hit& hit) const {
+    const Material& m = scene_.material_of(hit.triangle);
+    if (!(m.flags & (material_alpha_mask | material_alpha_blend))) return false;
+    const Surface s = surfaces_.surface_at(hit.triangle, hit.barycentrics);
+    if (m.flags & material_alpha_mask) return s.alpha < m.alpha_cutoff;
+    const uint64_t place = (uint64_t(floatBitsToUint(hit.barycentrics.x)) << 32) | floatBitsToUint(hit.barycentrics.y);
+    return to_unit_float(uint32_t(mix64(place ^ hit.triangle) >> 32)) >= s.alpha;
+}
+
+std::optional<Hit> RayCaster::nearest(vec3 origin, vec3 direction, float max_distance) const {
+    std::optional<Hit> hit = nearest_triangle(origin, direction, max_distance);
+    if (!has_holes_) return hit;
+    float passed = 0;
+    for (int layers = 0; hit && is_hole(*hit) && layers < 256; ++layers) {
+        passed += hit->distance + epsilon_;
+        hit = nearest_triangle(origin + direction * passed, direction, max_distance - passed);
+    }
+    if (hit) hit->distance += passed;
+    return hit;
+}
+
+vec3 RayCaster::transmittance(vec3 from, vec3 to) const {
+    const vec3 path = to - from;
+    const float distance = length(path);
+    if (!(distance > 0)) return vec3(1);
+    const vec3 direction = path / distance;
+    const float far = distance - epsilon_;
+    if (far <= 0) return vec3(1);
+    if (!has_holes_ && !has_thin_glass_) {
+        RTCRay ray = make_ray(from, direction, far);
+        return occluded(as_scene(embree_scene_), ray) ? vec3(0) : vec3(1);
+    }
+    vec3 passed_fraction(1);
+    float passed = 0;
+    for (int layers = 0; layers < 256; ++layers) {
+        const std::optional<Hit> hit = nearest(from + direction * passed, direction, far - passed);
+        if (!hit) return passed_fraction;
+        const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
+        if (!(s.flags & material_thin) || s.transmission <= 0) return vec3(0);
+        passed_fraction *= surfaces_.thin_transmittance(s, abs(dot(s.normal, direction)));
+        passed += hit->distance + epsilon_;
+        if (passed >= far) return passed_fraction;
+    }
+    return vec3(0);
+}
+
+void RayCaster::point_query(vec3 point, float radius, void (*visit)(void*, uint), void* context) const {
+    RTCPointQuery query{};
+    query.x = point.x, query.y = point.y, query.z = point.z;
+    query.radius = radius;
+    RTCPointQueryContext query_context;
+    rtcInitPointQueryContext(&query_context);
+    PointVisit target{visit, context};
+    rtcPointQuery(as_scene(embree_scene_), &query, &query_context, on_point_query, &target);
+}
+
+vec3 closest_point_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
+    const vec3 ab = b - a, ac = c - a, ap = p - a;
+    const float d1 = dot(ab, ap), d2 = dot(ac, ap);
+    if (d1 <= 0 && d2 <= 0) return a;
+    const vec3 bp = p - b;
+    const float d3 = dot(ab, bp), d4 = dot(ac, bp);
+    if (d3 >= 0 && d4 <= d3) return b;
+    const float vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 - d3 > 0 ? d1 / (d1 - d3) : 0.0f);
+    const vec3 cp = p - c;
+    const float d5 = dot(ab, cp), d6 = dot(ac, cp);
+    if (d6 >= 0 && d5 <= d6) return c;
+    const float vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 - d6 > 0 ? d2 / (d2 - d6) : 0.0f);
+    const float va = d3 * d6 - d5 * d4;
+    const float e = (d4 - d3) + (d5 - d6);
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (c - b) * (e > 0 ? (d4 - d3) / e : 0.0f);
+    const float sum = va + vb + vc;
+    return sum > 0 ? a + ab * (vb / sum) + ac * (vc / sum) : a;
+}
+
+}  // namespace lw

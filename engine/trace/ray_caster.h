@@ -1,0 +1,60 @@
+// Nearest hit, visibility and point queries against the triangles of a Scene; the only user of Embree.
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "scene/scene.h"
+#include "scene/surface.h"
+
+namespace lw {
+
+struct Hit {
+    uint triangle;
+    vec2 barycentrics;  // weights of the second and third vertex
+    float distance;     // m along the unit direction
+};
+
+/// Owns the Embree scene. Thread-safe for queries. The Scene must outlive it.
+class RayCaster {
+  public:
+    /// Throws Error when Embree cannot build (out of memory).
+    explicit RayCaster(const Scene& scene);
+    ~RayCaster();
+    RayCaster(const RayCaster&) = delete;
+    RayCaster& operator=(const RayCaster&) = delete;
+
+    /// Nearest surface along a unit direction; alpha-masked holes are passed, blended surfaces by coverage.
+    std::optional<Hit> nearest(vec3 origin, vec3 direction, float max_distance = 1e30f) const;
+
+    /// Fraction of light (per RGB) that passes between two points: 0 when blocked, the tint of thin glass otherwise.
+    vec3 transmittance(vec3 from, vec3 to) const;
+
+    /// Calls visit(triangle, squared distance, closest point) for every triangle within `radius` of `point`.
+    template <class Visit>
+    void triangles_near(vec3 point, float radius, Visit&& visit) const {
+        point_query(point, radius, [](void* context, uint triangle) { (*static_cast<Visit*>(context))(triangle); },
+                    &visit);
+    }
+
+    /// `point` moved off its surface along `normal` by a few units of float precision of the scene.
+    vec3 offset(vec3 point, vec3 normal) const { return point + normal * epsilon_; }
+    float epsilon() const { return epsilon_; }
+
+  private:
+    void point_query(vec3 point, float radius, void (*visit)(void*, uint), void* context) const;
+    std::optional<Hit> nearest_triangle(vec3 origin, vec3 direction, float max_distance) const;
+    bool is_hole(const Hit& hit) const;
+
+    const Scene& scene_;
+    SurfaceReader surfaces_;
+    void* device_ = nullptr;
+    void* embree_scene_ = nullptr;
+    float epsilon_ = 0;
+    bool has_holes_ = false;       // alpha masks or blends
+    bool has_thin_glass_ = false;
+};
+
+/// Closest point of triangle (a, b, c) to p, also for degenerate triangles (Ericson 2005, section 5.1.5).
+vec3 closest_point_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c);
+
+}  // namespace lw

@@ -1,0 +1,122 @@
+#include "trace/reference.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "scene/camera.h"
+
+namespace lw {
+namespace {
+
+/// Running mean and squared deviation of RGB and illuminance (Welford 1962), in double.
+struct PixelSum {
+    std::array<double, 4> mean{}, deviation{};
+
+    void add(const std::array<double, 4>& sample, uint64_t n) {
+        for (size_t c = 0; c < 4; ++c) {
+            const double delta = sample[c] - mean[c];
+            mean[c] += delta / double(n);
+            deviation[c] += delta * (sample[c] - mean[c]);
+        }
+    }
+    double error(size_t c, uint64_t n) const { return n > 1 ? std::sqrt(deviation[c] / double(n - 1) / double(n)) : 0; }
+};
+
+/// What every sample of a pixel sees first; pixel centres, so it is found once.
+struct FirstHit {
+    vec3 direction;
+    std::optional<Hit> hit;
+    Surface surface;
+    vec3 normal;  // geometric, to the viewer
+};
+
+double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
+
+double relative_error(const std::vector<PixelSum>& pixels, uint64_t n) {
+    double mean = 0, error2 = 0;
+    for (const PixelSum& p : pixels)
+        for (size_t c = 0; c < 3; ++c) {
+            mean += p.mean[c];
+            error2 += p.error(c, n) * p.error(c, n);
+        }
+    const double count = 3 * double(pixels.size());
+    return mean > 0 ? std::sqrt(error2 / count) / (mean / count) : 0;
+}
+
+void write_first_hits(const std::vector<FirstHit>& first, const Camera& camera, Image& image) {
+    auto& depth = image.add("depth");
+    auto& triangle = image.add("triangle", -1);
+    for (size_t i = 0; i < first.size(); ++i) {
+        if (!first[i].hit) continue;
+        depth[i] = -dot(first[i].direction, camera.rotation[2]) * first[i].hit->distance;
+        triangle[i] = float(first[i].hit->triangle);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        auto& normal = image.add(std::string("normal.") + "XYZ"[axis]);
+        for (size_t i = 0; i < first.size(); ++i)
+            if (first[i].hit) normal[i] = first[i].surface.normal[axis] * (dot(first[i].surface.normal, first[i].normal) < 0 ? -1.0f : 1.0f);
+    }
+}
+
+Image to_image(const std::vector<PixelSum>& pixels, uint64_t n, const ReferenceSettings& settings) {
+    Image image{settings.width, settings.height, {}};
+    const char* names[] = {"R", "G", "B", "illuminance"};
+    for (size_t c = 0; c < (settings.illuminance ? 4u : 3u); ++c) {
+        auto& mean = image.add(names[c]);
+        for (size_t i = 0; i < pixels.size(); ++i) mean[i] = float(pixels[i].mean[c]);
+        auto& error = image.add(std::string("error.") + names[c]);
+        for (size_t i = 0; i < pixels.size(); ++i) error[i] = float(pixels[i].error(c, n));
+    }
+    return image;
+}
+
+}  // namespace
+
+Reference render_reference(const Scene& scene, const RayCaster& caster, const Camera& camera,
+                           const std::vector<vec3>& weights, const ReferenceSettings& settings) {
+    const PathTracer tracer(scene, caster, weights);
+    const SurfaceReader surfaces(scene);
+    const size_t count = size_t(settings.width) * size_t(settings.height);
+    std::vector<PixelSum> pixels(count);
+    std::vector<FirstHit> first(count);
+    parallel_for(count, [&](size_t i) {
+        const auto x = float(i % size_t(settings.width)) + 0.5f, y = float(i / size_t(settings.width)) + 0.5f;
+        first[i].direction = camera_direction(camera, x, y, settings.width, settings.height);
+        first[i].hit = caster.nearest(camera.position, first[i].direction);
+        if (!first[i].hit) return;
+        first[i].surface = surfaces.surface_at(first[i].hit->triangle, first[i].hit->barycentrics);
+        const vec3 ng = first[i].surface.geometric_normal;
+        first[i].normal = dot(ng, first[i].direction) > 0 ? -ng : ng;
+    }, 64);
+
+    const auto start = std::chrono::steady_clock::now();
+    Progress progress("reference", settings.samples * count);
+    Reference result;
+    while (result.samples < settings.samples) {
+        const uint64_t pass = std::min<uint64_t>(settings.samples - result.samples, std::max<uint64_t>(1, std::min<uint64_t>(result.samples, 16)));
+        parallel_for(size_t(settings.height), [&](size_t row) {
+            for (size_t i = row * size_t(settings.width); i < (row + 1) * size_t(settings.width); ++i)
+                for (uint64_t n = result.samples; n < result.samples + pass; ++n) {
+                    Rng rng(settings.seed, i, n);
+                    const vec3 radiance = tracer.radiance(camera.position, first[i].direction, rng);
+                    double lux = 0;
+                    if (settings.illuminance && first[i].hit) lux = luminance(tracer.irradiance(first[i].surface.position, first[i].normal, rng));
+                    pixels[i].add({double(radiance.x), double(radiance.y), double(radiance.z), lux}, n + 1);
+                }
+            progress.step(pass * uint64_t(settings.width));
+        });
+        result.samples += pass;
+        result.relative_error = relative_error(pixels, result.samples);
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (settings.seconds > 0 && seconds >= settings.seconds) break;
+        if (settings.error > 0 && result.samples >= 16 && result.relative_error <= settings.error) break;
+    }
+    result.image = to_image(pixels, result.samples, settings);
+    write_first_hits(first, camera, result.image);
+    return result;
+}
+
+}  // namespace lw

@@ -1,0 +1,30 @@
+// A whole reference picture: mean and standard error per pixel from the path tracer.
+#pragma once
+#include "image/image.h"
+#include "scene/scene.h"
+#include "trace/path_tracer.h"
+
+namespace lw {
+
+/// When to stop: after `samples` per pixel, or before when `seconds` have passed or the picture's relative error
+/// (root mean square standard error / mean) is below `error`. 0 means no such limit.
+struct ReferenceSettings {
+    int width = 960, height = 540;
+    uint64_t samples = 256;
+    double seconds = 0;
+    double error = 0;
+    bool illuminance = true;  // a second path per sample measures lux at the first surface
+    uint64_t seed = 1;
+};
+
+struct Reference {
+    Image image;  // R G B, error.R error.G error.B (standard errors), depth, normal.XYZ, triangle, illuminance, error.illuminance
+    uint64_t samples = 0;
+    double relative_error = 0;
+};
+
+/// Renders through pixel centres, as the gather does, so that pictures can be compared pixel by pixel.
+Reference render_reference(const Scene& scene, const RayCaster& caster, const Camera& camera,
+                           const std::vector<vec3>& weights, const ReferenceSettings& settings);
+
+}  // namespace lw

@@ -1,0 +1,46 @@
+// Warps of uniform numbers, and the quasi-random numbers of the emission.
+#pragma once
+#include <cmath>
+
+#include "base/random.h"
+#include "shaders/scene.h"
+
+namespace lw {
+
+/// Orthonormal basis around unit n as columns (t, b, n) (Duff et al. 2017).
+inline mat3 frame_around(vec3 n) {
+    const float sign = std::copysign(1.0f, n.z);
+    const float a = -1.0f / (sign + n.z);
+    const float b = n.x * n.y * a;
+    return mat3(vec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), vec3(b, sign + n.y * n.y * a, -n.y), n);
+}
+
+/// Uniform on the unit disc.
+inline vec2 sample_disc(float u, float v) {
+    const float r = std::sqrt(u), phi = 2 * lw_pi * v;
+    return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+/// Cosine-weighted on the hemisphere around +Z; pdf = cos / pi.
+inline vec3 sample_cosine(float u, float v) {
+    const vec2 d = sample_disc(u, v);
+    return {d.x, d.y, std::sqrt(std::max(0.0f, 1 - u))};
+}
+
+/// Direction with the given cosine to +Z.
+inline vec3 direction_of(float cosine, float v) {
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine)), phi = 2 * lw_pi * v;
+    return {sine * std::cos(phi), sine * std::sin(phi), cosine};
+}
+
+/// Uniform barycentrics (second and third weight).
+inline vec2 sample_triangle(float u, float v) {
+    const float root = std::sqrt(u);
+    return {root * (1 - v), root * v};
+}
+
+/// Dimension `dimension` (0..4) of the Owen-scrambled Sobol sequence: direction numbers of Joe & Kuo (2008),
+/// hash-based scrambling of Burley (2020), seeded per dimension.
+float sobol_owen(uint32_t index, int dimension, uint32_t seed);
+
+}  // namespace lw

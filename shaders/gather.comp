@@ -1,0 +1,97 @@
+// Light at what each pixel sees: the photons of the map on the visible side of the triangle, through the BRDF,
+// and the surface's own glow. Writes radiance (cd/m2) and illuminance (lux), shading normal and depth (m along -Z).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "frame.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant, scalar) uniform Push { Frame frame; };
+
+LW_ARRAY(LightState, light_states);
+LW_ARRAY(uint, triangle_maps);
+LW_ARRAY(SurfaceGrid, grids);
+LW_ARRAY(uint, cell_starts);
+layout(set = 0, binding = binding_places, scalar) readonly buffer Places { PhotonPlace records[]; }
+places[most_place_chunks];
+layout(set = 0, binding = binding_fluxes, scalar) readonly buffer Fluxes { uint records[]; }
+fluxes[most_flux_chunks];
+layout(set = 0, binding = binding_directions, scalar) readonly buffer Directions { uint records[]; }
+directions[most_flux_chunks];
+
+layout(set = 1, binding = binding_visibility) uniform utexture2D visibility;
+layout(set = 1, binding = binding_radiance, scalar) buffer Radiance { vec4 radiance_illuminance[]; };
+layout(set = 1, binding = binding_normal_depth, scalar) writeonly buffer NormalDepth { vec4 normal_depth[]; };
+
+#define max_radius frame.max_radius
+#define neighbours frame.neighbours
+#define inverse_flux_scale frame.inverse_flux_scale
+
+// Constant indices only: the arrays of buffers need no dynamic indexing, and one chunk costs no branch.
+PhotonPlace photon_place(uint i) {
+    uint chunk = place_chunks == 1u ? 0u : i >> place_shift;
+    if (place_chunks > 1u) i &= (1u << place_shift) - 1u;
+    if (place_chunks > 1u && chunk == 1u) return places[1].records[i];
+    if (place_chunks > 2u && chunk == 2u) return places[2].records[i];
+    if (place_chunks > 3u && chunk == 3u) return places[3].records[i];
+    if (place_chunks > 4u && chunk == 4u) return places[4].records[i];
+    if (place_chunks > 5u && chunk == 5u) return places[5].records[i];
+    return places[0].records[i];
+}
+
+uint photon_flux(uint i) {
+    uint chunk = flux_chunks == 1u ? 0u : i >> flux_shift;
+    if (flux_chunks > 1u) i &= (1u << flux_shift) - 1u;
+    if (flux_chunks > 1u && chunk == 1u) return fluxes[1].records[i];
+    if (flux_chunks > 2u && chunk == 2u) return fluxes[2].records[i];
+    return fluxes[0].records[i];
+}
+
+uint photon_direction(uint i) {
+    uint chunk = flux_chunks == 1u ? 0u : i >> flux_shift;
+    if (flux_chunks > 1u) i &= (1u << flux_shift) - 1u;
+    if (flux_chunks > 1u && chunk == 1u) return directions[1].records[i];
+    if (flux_chunks > 2u && chunk == 2u) return directions[2].records[i];
+    return directions[0].records[i];
+}
+
+vec3 light_weight(uint light) { return light_states[light].weight; }
+
+#include "surface.glsl"
+#include "bsdf.glsl"
+#include "gather.glsl"
+
+/// What the surface shows without photons: its glow, or its colour when unlit.
+vec3 own_radiance(Surface s, bool front) {
+    if ((s.flags & material_unlit) != 0u) return s.base_color;
+    if (!front && (s.flags & material_double_sided) == 0u) return vec3(0.0f);
+    return s.emissive * (s.light >= 0 ? light_states[s.light].factor : 1.0f);
+}
+
+void store(uint pixel, vec4 light, vec4 geometry) {
+    vec4 before = frame.sample_index == 0u ? vec4(0.0f) : radiance_illuminance[pixel];
+    radiance_illuminance[pixel] = before + light * frame.sample_weight;
+    if (frame.sample_index == 0u) normal_depth[pixel] = geometry;
+}
+
+void main() {
+    uvec2 xy = gl_GlobalInvocationID.xy;
+    if (xy.x >= frame.width || xy.y >= frame.height) return;
+    uint pixel = xy.y * frame.width + xy.x;
+    uvec4 visible = texelFetch(visibility, ivec2(xy), 0);
+    if (visible.x >= frame.triangle_limit) {
+        store(pixel, vec4(0.0f), vec4(0.0f));
+        return;
+    }
+    Surface s = surface_at(visible.x, uintBitsToFloat(visible.yz));
+    vec3 to_camera = frame.camera_position - s.position;
+    bool front = dot(s.geometric_normal, to_camera) >= 0.0f;
+    vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal;
+    vec3 n_shading = front ? s.normal : -s.normal;
+    uint map = triangle_maps[2u * visible.x + (front ? 0u : 1u)];
+    Gathered light = gather_photons(map, s, n_geometric, n_shading, normalize(to_camera));
+    float illuminance = dot(light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
+    store(pixel, vec4(light.radiance + own_radiance(s, front), illuminance),
+          vec4(n_shading, dot(to_camera, frame.camera_back)));
+}

@@ -1,0 +1,187 @@
+// Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
+// The including scope provides the arrays grids, cell_starts, the functions photon_place, photon_flux,
+// photon_direction, light_weight and the constants gather_mode, neighbours, heap_size, max_radius,
+// inverse_flux_scale, has_directions. Needs photon_map.h and bsdf.glsl.
+
+/// What the photons around a point say. radiance in cd/m2, irradiance in lux per RGB channel.
+struct Gathered {
+    vec3 radiance;
+    vec3 irradiance;
+    float radius;   // bandwidth, m
+    float photons;  // photons under the kernel
+};
+
+/// Photons on a surface that is parallel but not the same: the height above the query may grow with the distance
+/// (curved and creased surfaces), but not more.
+bool on_same_surface(float height, float distance_squared) LW_MEMBER {
+    float tolerance = 0.01f * max_radius;
+    float excess = max(abs(height) - tolerance, 0.0f);
+    return excess * excess <= 0.75f * distance_squared;  // slope of a 60 degree crease
+}
+
+/// Adds photon `i`, weighted by `kernel` (1/m2).
+void add_photon(uint i, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
+                LW_INOUT(Gathered) sum) LW_MEMBER {
+    vec3 flux = unpack_rgb9e5(photon_flux(i)) * light_weight(light_of(photon_place(i))) * (kernel * inverse_flux_scale);
+    sum.irradiance += flux;
+    if (!has_directions) {
+        sum.radiance += flux * eval_brdf(s, n_shading, to_view, n_shading, true);
+        return;
+    }
+    vec3 to_light = unpack_direction(photon_direction(i));
+    float cos_shading = dot(n_shading, to_light);
+    float cos_geometric = max(dot(n_geometric, to_light), 0.05f);
+    float tilt = clamp(cos_shading / cos_geometric, 0.0f, 2.0f);  // irradiance on the shading normal's plane
+    sum.radiance += flux * tilt * eval_brdf(s, n_shading, to_view, to_light, false);
+}
+
+ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
+    return ivec2(int(floor(local.x / grid.cell_size)), int(floor(local.y / grid.cell_size)));
+}
+
+/// First and last reference of the cells [x0, x1] of row y, clipped to the grid.
+uvec2 row_span(SurfaceGrid grid, int x0, int x1, int y) LW_MEMBER {
+    if (y < 0 || y >= int(grid.rows) || x1 < 0 || x0 >= int(grid.columns)) return uvec2(0u, 0u);
+    uint row = grid.first_cell + uint(y) * grid.columns;
+    return uvec2(cell_starts[row + uint(max(x0, 0))], cell_starts[row + uint(min(x1, int(grid.columns) - 1)) + 1u]);
+}
+
+/// True when the window of `ring` cells around `cell` covers the grid.
+bool covers_grid(SurfaceGrid grid, ivec2 cell, int ring) LW_MEMBER {
+    return cell.x - ring <= 0 && cell.y - ring <= 0 && cell.x + ring >= int(grid.columns) - 1 &&
+           cell.y + ring >= int(grid.rows) - 1;
+}
+
+/// Exact k nearest photons with a bounded max-heap, nearest cells first; sum over the k-1 nearer ones / (pi r_k^2),
+/// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside max_radius: all of them over its disc.
+Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
+    float heap_distance[heap_size];
+    uint heap_photon[heap_size];
+    uint k = min(neighbours, heap_size);
+    uint count = 0u;
+    float bound = max_radius * max_radius;
+    ivec2 cell = cell_of(local, grid);
+    for (int ring = 0;; ++ring) {
+        for (int y = cell.y - ring; y <= cell.y + ring; ++y) {
+            bool whole_row = y == cell.y - ring || y == cell.y + ring;
+            int step = whole_row ? 1 : 2 * ring;
+            for (int x = cell.x - ring; x <= cell.x + ring; x += max(step, 1)) {
+                uvec2 span = row_span(grid, x, whole_row ? cell.x + ring : x, y);
+                for (uint i = span.x; i < span.y; ++i) {
+                    vec3 d = place_in_grid(photon_place(i), grid) - local;
+                    float d2 = dot(d, d);
+                    if (d2 >= bound || !on_same_surface(d.z, d2)) continue;
+                    uint hole;
+                    if (count < k) {
+                        hole = count++;
+                        while (hole > 0u && heap_distance[(hole - 1u) / 2u] < d2) {
+                            heap_distance[hole] = heap_distance[(hole - 1u) / 2u];
+                            heap_photon[hole] = heap_photon[(hole - 1u) / 2u];
+                            hole = (hole - 1u) / 2u;
+                        }
+                    } else {
+                        hole = 0u;
+                        for (uint child = 1u; child < k; child = 2u * hole + 1u) {
+                            if (child + 1u < k && heap_distance[child + 1u] > heap_distance[child]) ++child;
+                            if (heap_distance[child] <= d2) break;
+                            heap_distance[hole] = heap_distance[child];
+                            heap_photon[hole] = heap_photon[child];
+                            hole = child;
+                        }
+                    }
+                    heap_distance[hole] = d2;
+                    heap_photon[hole] = i;
+                    if (count == k) bound = heap_distance[0];
+                }
+                if (whole_row) break;
+            }
+        }
+        float left = min(local.x - float(cell.x - ring) * grid.cell_size, local.y - float(cell.y - ring) * grid.cell_size);
+        float right = min(float(cell.x + ring + 1) * grid.cell_size - local.x,
+                          float(cell.y + ring + 1) * grid.cell_size - local.y);
+        float reached = max(min(left, right), 0.0f);
+        if (reached * reached >= bound || covers_grid(grid, cell, ring)) break;
+    }
+    Gathered sum;
+    sum.radiance = vec3(0.0f);
+    sum.irradiance = vec3(0.0f);
+    bool full = count == k;
+    float radius_squared = max(full ? heap_distance[0] : max_radius * max_radius, 1e-12f * max_radius * max_radius);
+    sum.radius = sqrt(radius_squared);
+    sum.photons = float(full ? count - 1u : count);
+    float kernel = 1.0f / (lw_pi * radius_squared);
+    for (uint j = full ? 1u : 0u; j < count; ++j)
+        add_photon(heap_photon[j], kernel, s, n_geometric, n_shading, to_view, sum);
+    return sum;
+}
+
+/// Radius that is expected to hold k photons, from the counts of a growing window of cells.
+float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
+    ivec2 cell = cell_of(local, grid);
+    float wanted = 1.25f * float(neighbours);
+    int last_ring = int(max_radius / grid.cell_size) + 1;
+    float count = 0.0f;
+    float area = 0.0f;
+    int ring = 0;
+    for (; ring <= last_ring; ++ring) {
+        count = 0.0f;
+        int x0 = max(cell.x - ring, 0);
+        int x1 = min(cell.x + ring, int(grid.columns) - 1);
+        int y0 = max(cell.y - ring, 0);
+        int y1 = min(cell.y + ring, int(grid.rows) - 1);
+        for (int y = y0; y <= y1; ++y) {
+            uvec2 span = row_span(grid, x0, x1, y);
+            count += float(span.y - span.x);
+        }
+        area = float(max(x1 - x0 + 1, 1)) * float(max(y1 - y0 + 1, 1)) * grid.cell_size * grid.cell_size;
+        if (count >= wanted || covers_grid(grid, cell, ring)) break;
+    }
+    if (count < 1.0f) return max_radius;
+    return clamp(sqrt(float(neighbours) * area / (lw_pi * count)), min(0.5f * grid.cell_size, max_radius), max_radius);
+}
+
+/// One pass with an Epanechnikov kernel 2 / (pi r^2) (1 - d^2 / r^2) (Silverman 1986), no heap.
+Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
+    Gathered sum;
+    sum.radiance = vec3(0.0f);
+    sum.irradiance = vec3(0.0f);
+    sum.photons = 0.0f;
+    sum.radius = bandwidth_from_counts(grid, local);
+    float r2 = sum.radius * sum.radius;
+    float peak = 2.0f / (lw_pi * r2);
+    int y1 = int(floor((local.y + sum.radius) / grid.cell_size));
+    for (int y = int(floor((local.y - sum.radius) / grid.cell_size)); y <= y1; ++y) {
+        float below = float(y) * grid.cell_size - local.y;
+        float dy = max(max(below, -below - grid.cell_size), 0.0f);
+        float half_width = sqrt(max(r2 - dy * dy, 0.0f));
+        int x0 = int(floor((local.x - half_width) / grid.cell_size));
+        int x1 = int(floor((local.x + half_width) / grid.cell_size));
+        uvec2 span = row_span(grid, x0, x1, y);
+        for (uint i = span.x; i < span.y; ++i) {
+            vec3 d = place_in_grid(photon_place(i), grid) - local;
+            float d2 = dot(d, d);
+            if (d2 >= r2 || !on_same_surface(d.z, d2)) continue;
+            sum.photons += 1.0f;
+            add_photon(i, peak * (1.0f - d2 / r2), s, n_geometric, n_shading, to_view, sum);
+        }
+    }
+    return sum;
+}
+
+/// Reflected radiance and irradiance at surface `s` from the photons of `map`; zero when the map is no_map.
+/// n_geometric and n_shading are turned to the viewer.
+Gathered gather_photons(uint map, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
+    if (map == no_map) {
+        Gathered nothing;
+        nothing.radiance = vec3(0.0f);
+        nothing.irradiance = vec3(0.0f);
+        nothing.radius = max_radius;
+        nothing.photons = 0.0f;
+        return nothing;
+    }
+    SurfaceGrid grid = grids[map];
+    vec3 offset = s.position - grid.origin;
+    vec3 local = vec3(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+    if (gather_mode == 0u) return gather_exact(grid, local, s, n_geometric, n_shading, to_view);
+    return gather_smooth(grid, local, s, n_geometric, n_shading, to_view);
+}

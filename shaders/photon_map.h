@@ -1,0 +1,68 @@
+// Photon map records and their packing, shared by C++ and GLSL: CPU array = file bytes = GPU bytes.
+#ifndef LW_PHOTON_MAP_H
+#define LW_PHOTON_MAP_H
+#include "types.h"
+#ifdef __cplusplus
+namespace lw {
+#endif
+
+LW_CONST uint no_map = 0xffffffffu;
+LW_CONST uint path_direct = 0u;    // no bounce before this hit
+LW_CONST uint path_indirect = 1u;  // at least one diffuse or glossy bounce
+LW_CONST uint path_caustic = 2u;   // specular bounces only
+LW_CONST uint light_mask = 0x3fffu;  // low 14 bits of light_and_path
+LW_CONST uint path_shift = 14u;
+
+/// The 2D uniform grid of one map: a triangle, or a patch of small triangles of like orientation, seen from one side.
+/// Cell (i, j) is cell_starts[first_cell + j * columns + i], its end the next entry.
+struct SurfaceGrid {
+    vec3 origin;      // corner of the grid; position = origin + u u_axis + v v_axis + h normal
+    float cell_size;  // m
+    vec3 u_axis;
+    uint columns;
+    vec3 v_axis;
+    uint rows;
+    vec3 normal;       // oriented to the lit side
+    uint first_cell;
+    vec3 quantum;      // metres per step of the 16-bit u, v, h of its records
+    float h_origin;    // height of step 0 along the normal
+};
+
+/// Where a referenced photon lies in its map, and which light it came from (8 bytes).
+struct PhotonPlace {
+    uint uv;                // 16 + 16 bits, steps of quantum.xy
+    uint h_light_and_path;  // low 16: height step; high 16: light | path << 14
+};
+
+/// u, v, h in metres in the frame of the grid.
+LW_INLINE vec3 place_in_grid(PhotonPlace place, SurfaceGrid grid) {
+    return vec3(float(place.uv & 0xffffu) * grid.quantum.x, float(place.uv >> 16) * grid.quantum.y,
+                float(place.h_light_and_path & 0xffffu) * grid.quantum.z + grid.h_origin);
+}
+
+LW_INLINE uint light_of(PhotonPlace place) { return (place.h_light_and_path >> 16) & light_mask; }
+
+LW_INLINE uint path_of(PhotonPlace place) { return place.h_light_and_path >> 30; }
+
+/// Shared-exponent RGB9E5 to float (Vulkan 1.3 specification, 'shared exponent to RGB').
+LW_INLINE vec3 unpack_rgb9e5(uint bits) {
+    float scale = uintBitsToFloat(((bits >> 27) + 127u - 24u) << 23);
+    return vec3(float(bits & 0x1ffu), float((bits >> 9) & 0x1ffu), float((bits >> 18) & 0x1ffu)) * scale;
+}
+
+/// Unit vector from 16 + 16 bits of an octahedral map (Cigolle et al. 2014).
+LW_INLINE vec3 unpack_direction(uint bits) {
+    float x = float(bits & 0xffffu) / 32767.5f - 1.0f;
+    float y = float(bits >> 16) / 32767.5f - 1.0f;
+    float z = 1.0f - abs(x) - abs(y);
+    float t = max(-z, 0.0f);
+    x += x >= 0.0f ? -t : t;
+    y += y >= 0.0f ? -t : t;
+    return normalize(vec3(x, y, z));
+}
+
+#ifdef __cplusplus
+static_assert(sizeof(SurfaceGrid) == 80 && offsetof(SurfaceGrid, h_origin) == 76 && sizeof(PhotonPlace) == 8);
+}  // namespace lw
+#endif
+#endif

@@ -1,0 +1,120 @@
+// What lies at (triangle, barycentrics): position, normals and material parameters.
+// One text for C++ and GLSL. The including scope provides the arrays positions, normals, uv0, uv1, colors, tangents,
+// triangles, triangle_objects, objects, materials, textures, texels and the constants has_uv0, has_uv1, has_colors,
+// has_tangents, has_textures.
+
+float srgb_to_linear(float c) LW_MEMBER { return c <= 0.04045f ? c / 12.92f : pow((c + 0.055f) / 1.055f, 2.4f); }
+
+int wrap_texel(int i, int size, uint mode) LW_MEMBER {
+    if (mode == wrap_clamp) return clamp(i, 0, size - 1);
+    int period = mode == wrap_mirror ? 2 * size : size;
+    int j = i % period;
+    if (j < 0) j += period;
+    return j < size ? j : period - 1 - j;
+}
+
+vec4 fetch_texel(Texture t, int x, int y) LW_MEMBER {
+    int column = wrap_texel(x, int(t.width), t.wrap_s);
+    int row = wrap_texel(y, int(t.height), t.wrap_t);
+    uint bits = texels[t.first_texel + uint(row) * t.width + uint(column)];
+    vec4 c = vec4(float(bits & 255u), float((bits >> 8) & 255u), float((bits >> 16) & 255u), float(bits >> 24)) / 255.0f;
+    if (t.srgb != 0u) c = vec4(srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z), c.w);
+    return c;
+}
+
+/// Bilinear look-up of the base level, texel centres at half integers (glTF 2.0, section 3.8.4).
+vec4 sample_texture(TextureSlot slot, vec2 first_uv, vec2 second_uv) LW_MEMBER {
+    Texture t = textures[slot.texture];
+    vec2 uv = slot.texcoord == 0u ? first_uv : second_uv;
+    vec3 homogeneous = vec3(uv.x, uv.y, 1.0f);
+    vec2 p = vec2(dot(slot.row0, homogeneous), dot(slot.row1, homogeneous));
+    // Keeps the integer conversion in range; 2 is a whole number of periods of repeat and mirror.
+    p.x = t.wrap_s == wrap_clamp ? clamp(p.x, -1.0f, 2.0f) : p.x - 2.0f * floor(p.x * 0.5f);
+    p.y = t.wrap_t == wrap_clamp ? clamp(p.y, -1.0f, 2.0f) : p.y - 2.0f * floor(p.y * 0.5f);
+    vec2 texel = p * vec2(float(t.width), float(t.height));
+    if (t.nearest != 0u) return fetch_texel(t, int(floor(texel.x)), int(floor(texel.y)));
+    texel = texel - 0.5f;
+    vec2 base = floor(texel);
+    vec2 f = texel - base;
+    int x = int(base.x);
+    int y = int(base.y);
+    vec4 top = mix(fetch_texel(t, x, y), fetch_texel(t, x + 1, y), f.x);
+    vec4 bottom = mix(fetch_texel(t, x, y + 1), fetch_texel(t, x + 1, y + 1), f.x);
+    return mix(top, bottom, f.y);
+}
+
+/// barycentrics are the weights of the second and third vertex.
+Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
+    uvec3 corner = triangles[triangle];
+    float b0 = 1.0f - barycentrics.x - barycentrics.y;
+    float b1 = barycentrics.x;
+    float b2 = barycentrics.y;
+    vec3 p0 = positions[corner.x];
+    vec3 p1 = positions[corner.y];
+    vec3 p2 = positions[corner.z];
+    Object object = objects[triangle_objects[triangle]];
+    Material m = materials[object.material];
+
+    Surface s;
+    s.position = b0 * p0 + b1 * p1 + b2 * p2;
+    vec3 cross_product = cross(p1 - p0, p2 - p0);
+    float cross_length = length(cross_product);
+    s.geometric_normal = cross_length > 0.0f ? cross_product / cross_length : vec3(0.0f, 1.0f, 0.0f);
+    vec3 n = b0 * normals[corner.x] + b1 * normals[corner.y] + b2 * normals[corner.z];
+    float n_length = length(n);
+    s.normal = n_length > 1e-6f ? n / n_length : s.geometric_normal;
+
+    s.base_color = m.base_color;
+    s.alpha = m.alpha;
+    s.metallic = m.metallic;
+    s.roughness = m.roughness;
+    s.emissive = m.emissive;
+    s.specular = m.specular;
+    s.specular_color = m.specular_color;
+    s.ior = m.ior;
+    s.transmission = m.transmission;
+    s.flags = m.flags;
+    s.light = object.light;
+    if (has_colors) {
+        vec4 c = b0 * colors[corner.x] + b1 * colors[corner.y] + b2 * colors[corner.z];
+        s.base_color *= vec3(c.x, c.y, c.z);
+        s.alpha *= c.w;
+    }
+    if (has_textures) {
+        vec2 first_uv = vec2(0.0f);
+        vec2 second_uv = vec2(0.0f);
+        if (has_uv0) first_uv = b0 * uv0[corner.x] + b1 * uv0[corner.y] + b2 * uv0[corner.z];
+        if (has_uv1) second_uv = b0 * uv1[corner.x] + b1 * uv1[corner.y] + b2 * uv1[corner.z];
+        if (m.base_color_texture.texture >= 0) {
+            vec4 c = sample_texture(m.base_color_texture, first_uv, second_uv);
+            s.base_color *= vec3(c.x, c.y, c.z);
+            s.alpha *= c.w;
+        }
+        if (m.metallic_roughness_texture.texture >= 0) {
+            vec4 c = sample_texture(m.metallic_roughness_texture, first_uv, second_uv);
+            s.roughness *= c.y;
+            s.metallic *= c.z;
+        }
+        if (m.emissive_texture.texture >= 0) {
+            vec4 c = sample_texture(m.emissive_texture, first_uv, second_uv);
+            s.emissive *= vec3(c.x, c.y, c.z);
+        }
+        if (m.transmission_texture.texture >= 0)
+            s.transmission *= sample_texture(m.transmission_texture, first_uv, second_uv).x;
+        if (has_tangents && m.normal_texture.texture >= 0) {
+            vec4 c = sample_texture(m.normal_texture, first_uv, second_uv);
+            vec3 local = vec3((c.x * 2.0f - 1.0f) * m.normal_scale, (c.y * 2.0f - 1.0f) * m.normal_scale, c.z * 2.0f - 1.0f);
+            vec4 tangent4 = b0 * tangents[corner.x] + b1 * tangents[corner.y] + b2 * tangents[corner.z];
+            vec3 tangent = vec3(tangent4.x, tangent4.y, tangent4.z);
+            tangent = tangent - s.normal * dot(s.normal, tangent);
+            float tangent_length = length(tangent);
+            if (tangent_length > 1e-6f) {
+                tangent = tangent / tangent_length;
+                vec3 bitangent = cross(s.normal, tangent) * (tangent4.w < 0.0f ? -1.0f : 1.0f);
+                s.normal = normalize(local.x * tangent + local.y * bitangent + local.z * s.normal);
+            }
+        }
+    }
+    if (dot(s.normal, s.geometric_normal) < 0.0f) s.normal = -s.normal;
+    return s;
+}

@@ -1,0 +1,24 @@
+// Radiance to what a screen shows: exposure, tone curve, sRGB codes, 8 bits. A pixel that is not a number is magenta.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "frame.h"
+#include "tonemap.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant, scalar) uniform Push { Screen screen; };
+layout(set = 1, binding = binding_radiance, scalar) readonly buffer Radiance { vec4 radiance_illuminance[]; };
+layout(set = 1, binding = binding_screen, scalar) writeonly buffer Codes { uint codes[]; };  // RGBA8, R in the low byte
+
+void main() {
+    uvec2 xy = gl_GlobalInvocationID.xy;
+    if (xy.x >= screen.width || xy.y >= screen.height) return;
+    uint pixel = xy.y * screen.width + xy.x;
+    vec3 radiance = radiance_illuminance[pixel].xyz;
+    if (any(isnan(radiance))) {
+        codes[pixel] = 0xffff00ffu;
+        return;
+    }
+    vec3 toned = tone_curve(max(radiance, vec3(0.0f)) * exposure_scale(screen.exposure_ev));
+    codes[pixel] = packUnorm4x8(vec4(encode_srgb(toned), 1.0f));
+}

@@ -1,0 +1,24 @@
+// The aliases that let one text compile as C++ and as GLSL. Scalar block layout on both sides.
+#ifndef LW_TYPES_H
+#define LW_TYPES_H
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+namespace lw {
+using glm::ivec2, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::mat3;
+using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::length, glm::max, glm::min, glm::mix;
+using glm::normalize, glm::pow, glm::reflect, glm::sqrt, glm::floatBitsToUint, glm::uintBitsToFloat;
+using uint = uint32_t;
+}  // namespace lw
+#define LW_CONST constexpr
+#define LW_INLINE inline
+#define LW_MEMBER const
+#define LW_INOUT(T) T&
+#else
+#define LW_CONST const
+#define LW_INLINE
+#define LW_MEMBER
+#define LW_INOUT(T) inout T
+#endif
+#endif

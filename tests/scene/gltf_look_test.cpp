@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/gltf_text.h"
+#include "scene/surface.h"
+
+namespace lw::test {
+namespace {
+
+// 2 x 2 PNG: red, green / blue, white.
+const std::string png_uri =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAEklEQVR4nGP4z8DAAMIM/4EAAB/"
+    "uBfsL2WiLAAAAAElFTkSuQmCC";
+
+GltfText textured(const std::string& uri) {
+    GltfText g = square();
+    g.floats("TEXCOORD_0", {0, 0, 1, 0, 1, 1, 0, 1}, "VEC2");
+    g.doc["images"] = {{{"uri", uri}, {"name", "picture"}}};
+    g.doc["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
+    g.doc["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    g.doc["materials"] = {
+        {{"name", "paint"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}}}}};
+    g.primitive()["material"] = 0;
+    return g;
+}
+
+void expect_near(vec4 a, vec4 b) {
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(a[c], b[c], 1e-6f) << c;
+}
+
+/// A glass cube or, without its last face, an open glass box.
+GltfText glass(bool closed) {
+    GltfText g;
+    g.floats("POSITION", {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
+    std::vector<uint8_t> faces{0, 2, 1, 0, 1, 3, 1, 2, 3};
+    if (closed) faces.insert(faces.end(), {0, 3, 2});
+    g.primitive()["indices"] = g.accessor(faces, "SCALAR", 5121);
+    g.primitive()["material"] = 0;
+    g.doc["materials"] = {{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}}};
+    return g;
+}
+
+}  // namespace
+
+TEST(GltfMaterials, MissingMaterialIsTheDefault) {
+    const Scene s = square().load();
+    ASSERT_EQ(s.materials.size(), 1u);
+    EXPECT_EQ(s.materials[0].base_color, vec3(1));
+    EXPECT_EQ(s.materials[0].metallic, 1);
+    EXPECT_EQ(s.materials[0].roughness, 1);
+    EXPECT_TRUE(s.uv0.empty() && s.uv1.empty() && s.colors.empty() && s.tangents.empty());
+}
+
+TEST(GltfMaterials, FactorsAndExtensions) {
+    GltfText g = square();
+    g.primitive()["material"] = 0;
+    g.doc["materials"] =
+        Json::parse(R"([{"doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.25, "emissiveFactor": [1, 0.5, 0],
+        "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.6},
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 40}, "KHR_materials_ior": {"ior": 1.33},
+                       "KHR_materials_specular": {"specularFactor": 0.7, "specularColorFactor": [1, 0.9, 0.8]}}}])");
+    const Scene s = g.load();
+    const Material& m = s.materials[0];
+    EXPECT_EQ(m.base_color, vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.alpha, 0.4f);
+    EXPECT_EQ(m.emissive, vec3(40, 20, 0));
+    EXPECT_EQ(m.ior, 1.33f);
+    EXPECT_EQ(m.specular, 0.7f);
+    EXPECT_EQ(m.specular_color, vec3(1, 0.9f, 0.8f));
+    EXPECT_EQ(m.alpha_cutoff, 0.25f);
+    EXPECT_EQ(m.flags, material_double_sided | material_alpha_mask);
+}
+
+TEST(GltfMaterials, GlassIsThinUnlessClosed) {
+    EXPECT_TRUE(glass(false).load().materials[0].flags & material_thin);
+    EXPECT_FALSE(glass(true).load().materials[0].flags & material_thin);
+    GltfText declared = glass(false);
+    declared.doc["materials"][0]["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0.1;
+    EXPECT_FALSE(declared.load().materials[0].flags & material_thin);
+}
+
+TEST(GltfMaterials, GlassThatIsBothThinAndSolidIsTwoMaterials) {
+    GltfText g = glass(true);
+    const int open = g.accessor(std::vector<uint8_t>{0, 2, 1}, "SCALAR", 5121);
+    g.doc["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"indices", open}, {"material", 0}});
+    const Scene s = g.load();
+    ASSERT_EQ(s.materials.size(), 2u);
+    EXPECT_NE(s.objects[0].material, s.objects[1].material);
+    EXPECT_FALSE(s.materials[s.objects[0].material].flags & material_thin);
+    EXPECT_TRUE(s.materials[s.objects[1].material].flags & material_thin);
+}
+
+TEST(GltfMaterials, VertexColoursAreLinearAndOpaqueByDefault) {
+    GltfText g = square();
+    g.attribute("COLOR_0",
+                g.accessor(std::vector<uint8_t>{51, 0, 255, 51, 0, 255, 51, 0, 255, 51, 0, 255}, "VEC3", 5121, true));
+    expect_near(g.load().colors[2], vec4(0.2f, 0, 1, 1));
+}
+
+TEST(GltfTextures, TexelsSamplerAndEncoding) {
+    const Scene s = textured(png_uri).load();
+    ASSERT_EQ(s.textures.size(), 1u);
+    const Texture& t = s.textures[0];
+    EXPECT_EQ(t.width, 2u);
+    EXPECT_EQ(t.wrap_s, wrap_clamp);
+    EXPECT_EQ(t.wrap_t, wrap_mirror);
+    EXPECT_EQ(t.srgb, 1u);
+    EXPECT_EQ(s.texels, (std::vector<uint>{0xff0000ffu, 0xff00ff00u, 0xffff0000u, 0xffffffffu}));
+    EXPECT_EQ(s.uv0.size(), 4u);
+}
+
+TEST(GltfTextures, TransformIsOffsetTimesRotationTimesScale) {
+    GltfText g = textured(png_uri);
+    g.doc["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] =
+        Json::parse(R"({"offset": [0.1, 0.2], "rotation": 1.5707963267948966, "scale": [2, 3]})");
+    const TextureSlot slot = g.load().materials[0].base_color_texture;
+    const vec3 row0(0, 3, 0.1f), row1(-2, 0, 0.2f);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(slot.row0[c], row0[c], 1e-6f);
+        EXPECT_NEAR(slot.row1[c], row1[c], 1e-6f);
+    }
+}
+
+TEST(GltfTextures, AnImageThatCannotBeDecodedLeavesItsFactor) {
+    for (const std::string uri : {"data:image/png;base64,AAAA", "data:image/webp;base64,UklGRg==", "missing.png"}) {
+        std::string error;
+        Scene s;
+        error = error_of([&] { s = textured(uri).load(); });
+        ASSERT_EQ(error, "") << uri;
+        EXPECT_EQ(s.materials[0].base_color_texture.texture, -1) << uri;
+        ASSERT_EQ(s.warnings.size(), 1u) << uri;
+        EXPECT_NE(s.warnings[0].find("picture"), std::string::npos) << s.warnings[0];
+    }
+}
+
+TEST(GltfTextures, BilinearSamplesMeetAtTexelCentres) {
+    Scene s = textured(png_uri).load();
+    s.textures[0].srgb = 0;
+    const SurfaceReader reader(s);
+    const TextureSlot slot = s.materials[0].base_color_texture;
+    const auto at = [&](float u, float v) { return reader.sample_texture(slot, vec2(u, v), vec2(0)); };
+    expect_near(at(0.25f, 0.25f), vec4(1, 0, 0, 1));
+    expect_near(at(0.75f, 0.25f), vec4(0, 1, 0, 1));
+    expect_near(at(0.5f, 0.25f), vec4(0.5f, 0.5f, 0, 1));
+    expect_near(at(0.5f, 0.5f), vec4(0.5f, 0.5f, 0.5f, 1));
+    expect_near(at(0.25f, 1.25f), vec4(0, 0, 1, 1));  // mirrored in t
+    s.textures[0].nearest = 1;
+    expect_near(at(0.49f, 0.1f), vec4(1, 0, 0, 1));
+    s.textures[0].nearest = 0;
+    s.textures[0].wrap_s = s.textures[0].wrap_t = wrap_repeat;
+    expect_near(at(0, 0.25f), vec4(0.5f, 0.5f, 0, 1));  // half way across the seam
+    expect_near(at(-0.75f, 3.25f), vec4(1, 0, 0, 1));
+}
+
+TEST(GltfTextures, ClampReachesTheBorderTexelOutsideTheUnitSquare) {
+    Scene s = textured(png_uri).load();
+    s.textures[0].srgb = 0;
+    s.textures[0].wrap_t = wrap_clamp;
+    const SurfaceReader reader(s);
+    const TextureSlot slot = s.materials[0].base_color_texture;
+    expect_near(reader.sample_texture(slot, vec2(-0.5f, -0.5f), vec2(0)), vec4(1, 0, 0, 1));
+    expect_near(reader.sample_texture(slot, vec2(1.5f, -7), vec2(0)), vec4(0, 1, 0, 1));
+}
+
+TEST(GltfTextures, TangentsAreMadeForANormalMap) {
+    GltfText g = textured(png_uri);
+    g.doc["materials"][0]["normalTexture"]["index"] = 0;
+    // v grows upwards on this square, so the image is upside down and the handedness negative.
+    const Scene s = g.load();
+    ASSERT_EQ(s.tangents.size(), 4u);
+    for (vec4 t : s.tangents) expect_near(t, vec4(1, 0, 0, -1));
+}
+
+}  // namespace lw::test

@@ -1,0 +1,111 @@
+// Writes small glTF files for the tests: attributes as arrays in C++, the rest as JSON that a test may bend.
+#pragma once
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/gltf.h"
+
+namespace lw::test {
+
+using Json = nlohmann::json;
+
+inline std::string base64(const std::vector<unsigned char>& bytes) {
+    static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t bits = 0;
+        for (size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
+        for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? letters[bits >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+/// A glTF document with one node, one mesh, one primitive and a lamp of 100 cd at (0, 0, 1); tests change `doc`.
+struct GltfText {
+    Json doc = Json::parse(
+        R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"], "accessors": [], "bufferViews": [],
+        "scene": 0, "scenes": [{"nodes": [0, 1]}], "meshes": [{"name": "lamp", "primitives": [{"attributes": {}}]}],
+        "nodes": [{"mesh": 0, "name": "thing"}, {"name": "bulb", "translation": [0, 0, 1], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 100}]}}})");
+    std::vector<unsigned char> bytes;
+
+    Json& primitive() { return doc["meshes"][0]["primitives"][0]; }
+    Json& node() { return doc["nodes"][0]; }
+
+    template <class T>
+    int view(const std::vector<T>& values) {
+        while (bytes.size() % 4) bytes.push_back(0);
+        const size_t offset = bytes.size(), size = values.size() * sizeof(T);
+        bytes.resize(offset + size);
+        std::memcpy(bytes.data() + offset, values.data(), size);
+        doc["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
+        return int(doc["bufferViews"].size()) - 1;
+    }
+    template <class T>
+    int accessor(const std::vector<T>& values, const std::string& type, int component, bool normalized = false) {
+        const size_t width = type == "SCALAR" ? 1 : size_t(type[3] - '0');
+        doc["accessors"].push_back({{"bufferView", view(values)},
+                                    {"componentType", component},
+                                    {"type", type},
+                                    {"count", values.size() / width},
+                                    {"normalized", normalized}});
+        return int(doc["accessors"].size()) - 1;
+    }
+    void attribute(const std::string& name, int accessor_index) { primitive()["attributes"][name] = accessor_index; }
+    void floats(const std::string& name, const std::vector<float>& values, const std::string& type) {
+        attribute(name, accessor(values, type, 5126));
+    }
+
+    std::string text() const {
+        Json out = doc;
+        out["buffers"] = {
+            {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}};
+        return out.dump();
+    }
+    std::filesystem::path save() const { return write(text(), "room.gltf"); }
+    Scene load() const { return load_gltf(save()); }
+
+    /// The folder belongs to this process: ctest runs the tests in parallel.
+    static std::filesystem::path write(const std::string& content, const std::string& name) {
+        const auto folder = std::filesystem::temp_directory_path() / ("lumenwalk_scene_" + std::to_string(getpid()));
+        std::filesystem::create_directories(folder);
+        std::ofstream(folder / name, std::ios::binary).write(content.data(), std::streamsize(content.size()));
+        return folder / name;
+    }
+};
+
+/// A unit square in the plane z = 0, front towards +z, without indices.
+inline GltfText square() {
+    GltfText g;
+    g.floats("POSITION", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3");
+    g.floats("NORMAL", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    g.primitive()["indices"] = g.accessor(std::vector<uint16_t>{0, 1, 2, 0, 2, 3}, "SCALAR", 5123);
+    return g;
+}
+
+/// The message of the Error that loading throws; empty when it loads.
+template <class Load>
+std::string error_of(const Load& load) {
+    try {
+        load();
+        return {};
+    } catch (const Error& e) {
+        return e.what();
+    }
+}
+
+inline vec3 front_of(const Scene& s, size_t triangle) {
+    const uvec3 t = s.triangles[triangle];
+    return normalize(cross(s.positions[t.y] - s.positions[t.x], s.positions[t.z] - s.positions[t.x]));
+}
+
+inline glm::dvec3 world(const Scene& s, size_t vertex) { return s.origin + glm::dvec3(s.positions[vertex]); }
+
+}  // namespace lw::test
