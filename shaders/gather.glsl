@@ -3,14 +3,6 @@
 // photon_direction, light_weight and the constants gather_mode, neighbours, heap_size, max_radius,
 // inverse_flux_scale, has_directions. Needs photon_map.h and bsdf.glsl.
 
-/// What the photons around a point say. radiance in cd/m2, irradiance in lux per RGB channel.
-struct Gathered {
-    vec3 radiance;
-    vec3 irradiance;
-    float radius;   // bandwidth, m
-    float photons;  // photons under the kernel
-};
-
 /// Photons on a surface that is parallel but not the same: the height above the query may grow with the distance
 /// (curved and creased surfaces), but not more.
 bool on_same_surface(float height, float distance_squared) LW_MEMBER {

@@ -34,6 +34,14 @@ struct PhotonPlace {
     uint h_light_and_path;  // low 16: height step; high 16: light | path << 14
 };
 
+/// What the photons around a point say. radiance in cd/m2, irradiance in lux per RGB channel.
+struct Gathered {
+    vec3 radiance;
+    vec3 irradiance;
+    float radius;   // bandwidth, m
+    float photons;  // photons under the kernel
+};
+
 /// u, v, h in metres in the frame of the grid.
 LW_INLINE vec3 place_in_grid(PhotonPlace place, SurfaceGrid grid) {
     return vec3(float(place.uv & 0xffffu) * grid.quantum.x, float(place.uv >> 16) * grid.quantum.y,

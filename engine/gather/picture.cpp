@@ -23,12 +23,12 @@ Buffer plane(const Device& device, vk::Extent2D size, size_t pixel_bytes, const 
 
 }  // namespace
 
-Picture::Picture(const Device& device, const Texture& visibility)
+Picture::Picture(const Device& device, const Target& visibility)
     : radiance_(plane(device, visibility.size(), 16, "radiance")),
       normal_depth_(plane(device, visibility.size(), 16, "normals")),
       screen_(plane(device, visibility.size(), 4, "screen")),
       descriptors_(device, picture_bindings()) {
-    descriptors_.set_texture(binding_visibility, visibility);
+    descriptors_.set_target(binding_visibility, visibility);
     descriptors_.set_buffer(binding_radiance, radiance_);
     descriptors_.set_buffer(binding_normal_depth, normal_depth_);
     descriptors_.set_buffer(binding_screen, screen_);

@@ -7,7 +7,7 @@ namespace lw {
 class Picture {
   public:
     /// Throws Error when a plane of this size is beyond the device's buffers.
-    Picture(const Device& device, const Texture& visibility);
+    Picture(const Device& device, const Target& visibility);
     const DescriptorSet& descriptors() const { return descriptors_; }
     const Buffer& radiance() const { return radiance_; }          // vec4: RGB cd/m2, illuminance lx
     const Buffer& normal_depth() const { return normal_depth_; }  // vec4: shading normal, depth m

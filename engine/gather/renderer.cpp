@@ -139,9 +139,8 @@ Image Renderer::read_image(const std::vector<VisibleSample>& visible) const {
     add_plane("normal.X", [&](size_t i) { return geometry[i].x; });
     add_plane("normal.Y", [&](size_t i) { return geometry[i].y; });
     add_plane("normal.Z", [&](size_t i) { return geometry[i].z; });
-    add_plane("triangle", [&](size_t i) {
-        return visible[i].triangle == no_triangle ? -1.0f : float(visible[i].triangle);
-    });
+    add_plane("triangle",
+              [&](size_t i) { return visible[i].triangle == no_triangle ? -1.0f : float(visible[i].triangle); });
     return image;
 }
 

@@ -31,7 +31,9 @@ uint chunk_shift(uint64_t range, uint64_t record_bytes) {
     return std::min(31u, uint(std::bit_width(range / record_bytes)) - 1u);
 }
 
-uint chunk_count(uint64_t records, uint shift) { return uint(std::max<uint64_t>(1, (records + (1ull << shift) - 1) >> shift)); }
+uint chunk_count(uint64_t records, uint shift) {
+    return uint(std::max<uint64_t>(1, (records + (1ull << shift) - 1) >> shift));
+}
 
 bool any_material(const Scene& scene, uint flags) {
     return std::any_of(scene.materials.begin(), scene.materials.end(),
@@ -116,7 +118,8 @@ void Resident::upload_scene(const Scene& scene) {
 void Resident::upload_map(const PhotonMap& map) {
     std::vector<uint> unlit;
     if (map.triangle_maps.empty()) unlit.assign(2 * size_t(triangle_count_), no_map);
-    upload_array<uint>(binding_triangle_maps, map.triangle_maps.empty() ? unlit : map.triangle_maps, "maps of triangles");
+    upload_array<uint>(binding_triangle_maps, map.triangle_maps.empty() ? unlit : map.triangle_maps,
+                       "maps of triangles");
     upload_array<SurfaceGrid>(binding_grids, map.grids, "grids");
     upload_array<uint>(binding_cell_starts, map.cell_starts, "cells");
     upload_chunks<PhotonPlace>(binding_places, map.places, constants_[constant_place_shift], "photon places");

@@ -30,7 +30,7 @@ class Resident {
     /// Specialization constants of the scene; gather_mode and heap_size are left to the pass.
     const ShaderConstants& constants() const { return constants_; }
     uint triangle_count() const { return triangle_count_; }
-    float max_radius() const { return max_radius_; }                  // m
+    float max_radius() const { return max_radius_; }  // m
     float inverse_flux_scale() const { return inverse_flux_scale_; }
     uint64_t bytes() const;  // GPU memory of all buffers
 

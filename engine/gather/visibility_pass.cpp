@@ -65,8 +65,8 @@ std::vector<VisibleSample> VisibilityPass::read_samples() const {
         const vk::BufferImageCopy whole(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
                                         {size.width, size.height, 1});
         commands.copyImageToBuffer(visible_.image(), Layout::eTransferSrcOptimal, pixels.handle(), whole);
-        visible_.change_layout(commands, Layout::eTransferSrcOptimal, Layout::eShaderReadOnlyOptimal,
-                               Stage::eTransfer, Stage::eAllCommands);
+        visible_.change_layout(commands, Layout::eTransferSrcOptimal, Layout::eShaderReadOnlyOptimal, Stage::eTransfer,
+                               Stage::eAllCommands);
     });
     return read_back<VisibleSample>(*device_, pixels, count);
 }

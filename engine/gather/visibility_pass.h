@@ -1,7 +1,7 @@
 // Rasterises the scene: per pixel the triangle that is seen and where on it. Cut-outs and glass let the view through.
 #pragma once
 #include "gather/resident.h"
-#include "gpu/texture.h"
+#include "gpu/target.h"
 
 namespace lw {
 
@@ -18,7 +18,7 @@ class VisibilityPass {
     VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size);
     /// Afterwards texture() is readable by compute shaders.
     void record(vk::CommandBuffer commands, const Frame& frame) const;
-    const Texture& texture() const { return visible_; }
+    const Target& texture() const { return visible_; }
     /// The samples of the last recorded and finished frame, row 0 on top.
     std::vector<VisibleSample> read_samples() const;
 
@@ -27,8 +27,8 @@ class VisibilityPass {
 
     const Device* device_;
     const Resident* resident_;
-    Texture visible_;
-    Texture depth_;
+    Target visible_;
+    Target depth_;
     vk::UniquePipelineLayout layout_;
     vk::UniquePipeline pipeline_;
 };

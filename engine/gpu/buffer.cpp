@@ -16,7 +16,8 @@ vk::UniqueDeviceMemory allocate(const Device& device, vk::MemoryRequirements nee
     using Property = vk::MemoryPropertyFlagBits;
     const vk::MemoryPropertyFlags host = Property::eHostVisible | Property::eHostCoherent;
     const vk::MemoryPropertyFlags wanted = place == Buffer::Place::host ? host : Property::eDeviceLocal;
-    int type = place == Buffer::Place::host ? device.find_memory_type(needs.memoryTypeBits, host | Property::eHostCached) : -1;
+    int type =
+        place == Buffer::Place::host ? device.find_memory_type(needs.memoryTypeBits, host | Property::eHostCached) : -1;
     if (type < 0) type = device.find_memory_type(needs.memoryTypeBits, wanted);
     if (type < 0) throw Error(device.name() + ": has no suitable memory");
     return device.handle().allocateMemoryUnique({needs.size, uint32_t(type)});

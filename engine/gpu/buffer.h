@@ -38,7 +38,8 @@ Buffer upload(const Device& device, std::span<const T> values, const std::string
     static const char nothing[16] = {};
     const size_t bytes = values.size_bytes();
     Buffer buffer(device, bytes ? bytes : sizeof nothing, what);
-    write_bytes(device, buffer, bytes ? static_cast<const void*>(values.data()) : nothing, bytes ? bytes : sizeof nothing);
+    write_bytes(device, buffer, bytes ? static_cast<const void*>(values.data()) : nothing,
+                bytes ? bytes : sizeof nothing);
     return buffer;
 }
 

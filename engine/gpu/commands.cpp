@@ -30,9 +30,9 @@ Timestamps::Timestamps(const Device& device, uint32_t count)
       pool_(device.handle().createQueryPoolUnique({{}, vk::QueryType::eTimestamp, count})) {}
 
 std::vector<double> Timestamps::intervals_ms() const {
-    const auto results = device_->handle().getQueryPoolResults<uint64_t>(
-        *pool_, 0, count_, count_ * sizeof(uint64_t), sizeof(uint64_t),
-        vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    const auto results =
+        device_->handle().getQueryPoolResults<uint64_t>(*pool_, 0, count_, count_ * sizeof(uint64_t), sizeof(uint64_t),
+                                                        vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     const std::vector<uint64_t>& ticks = results.value;
     std::vector<double> intervals;
     for (size_t i = 1; i < ticks.size(); ++i)

@@ -23,7 +23,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL record_message(VkDebugUtilsMessageSeverityFlagBit
 vk::DebugUtilsMessengerCreateInfoEXT messenger_settings(ValidationLog& log) {
     using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
     return vk::DebugUtilsMessengerCreateInfoEXT({}, Severity::eWarning | Severity::eError,
-                                                vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, record_message, &log);
+                                                vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, record_message,
+                                                &log);
 }
 
 vk::ApplicationInfo application() { return vk::ApplicationInfo("lumenwalk", 1, "lumenwalk", 1, VK_API_VERSION_1_3); }
@@ -43,11 +44,16 @@ std::string name_of(vk::PhysicalDevice device) { return device.getProperties().d
 
 int rank(vk::PhysicalDevice device) {
     switch (device.getProperties().deviceType) {
-        case vk::PhysicalDeviceType::eDiscreteGpu: return 0;
-        case vk::PhysicalDeviceType::eIntegratedGpu: return 1;
-        case vk::PhysicalDeviceType::eVirtualGpu: return 2;
-        case vk::PhysicalDeviceType::eCpu: return 3;
-        default: return 4;
+        case vk::PhysicalDeviceType::eDiscreteGpu:
+            return 0;
+        case vk::PhysicalDeviceType::eIntegratedGpu:
+            return 1;
+        case vk::PhysicalDeviceType::eVirtualGpu:
+            return 2;
+        case vk::PhysicalDeviceType::eCpu:
+            return 3;
+        default:
+            return 4;
     }
 }
 
@@ -76,6 +82,7 @@ std::string lack_of(vk::PhysicalDevice device) {
     if (!chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout) return "feature scalarBlockLayout";
     if (!chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering) return "feature dynamicRendering";
     if (!chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2) return "feature synchronization2";
+    if (!chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4) return "feature maintenance4";
     if (!queue_family_of(device)) return "a queue for graphics and compute with timestamps";
     return "";
 }
@@ -138,8 +145,8 @@ void Device::create_instance(bool validation) {
         vk::InstanceCreateInfo({}, &app, validation_layer, extensions), vk::ValidationFeaturesEXT(checks),
         messenger_settings(*log_));
     instance_ = vk::createInstanceUnique(chain.get<vk::InstanceCreateInfo>());
-    auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-        instance_->getProcAddr("vkCreateDebugUtilsMessengerEXT"));
+    auto create =
+        reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(instance_->getProcAddr("vkCreateDebugUtilsMessengerEXT"));
     const VkDebugUtilsMessengerCreateInfoEXT info = messenger_settings(*log_);
     if (create(*instance_, &info, nullptr, &messenger_) != VK_SUCCESS)
         throw Error("Vulkan: the validation layer cannot report");
@@ -155,6 +162,7 @@ void Device::create_device() {
     chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2 = true;
+    chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4 = true;  // glslang states work group sizes by id
     device_ = physical_.createDeviceUnique(chain.get<vk::DeviceCreateInfo>());
     queue_ = device_->getQueue(queue_family_, 0);
     command_pool_ = device_->createCommandPoolUnique({vk::CommandPoolCreateFlagBits::eTransient, queue_family_});

@@ -1,5 +1,6 @@
 // A Vulkan 1.3 device with one queue that does graphics, compute and timestamps. Knows no scene and no photons.
-// Required features: scalarBlockLayout, dynamicRendering, synchronization2. Without such a device: one Error.
+// Required features: scalarBlockLayout, dynamicRendering, synchronization2, maintenance4. Without such a device: one
+// Error.
 #pragma once
 #include <memory>
 #include <mutex>

@@ -50,7 +50,7 @@ void DescriptorSet::set_buffer(uint32_t binding, const Buffer& buffer, uint32_t 
     device_->handle().updateDescriptorSets(write, {});
 }
 
-void DescriptorSet::set_texture(uint32_t binding, const Texture& texture) const {
+void DescriptorSet::set_target(uint32_t binding, const Target& texture) const {
     const vk::DescriptorImageInfo what({}, texture.view(), vk::ImageLayout::eShaderReadOnlyOptimal);
     const vk::WriteDescriptorSet write(set_, binding, 0, vk::DescriptorType::eSampledImage, what);
     device_->handle().updateDescriptorSets(write, {});
@@ -66,7 +66,8 @@ vk::UniquePipeline make_compute_pipeline(const Device& device, vk::PipelineLayou
                                          Constants constants) {
     const vk::UniqueShaderModule shader = make_module(device, code);
     const Specialization special(constants);
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main", special.get());
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
+                                                  special.get());
     return device.handle().createComputePipelineUnique({}, {{}, stage, layout}).value;
 }
 

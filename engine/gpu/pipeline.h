@@ -3,7 +3,7 @@
 #include <span>
 
 #include "gpu/buffer.h"
-#include "gpu/texture.h"
+#include "gpu/target.h"
 
 namespace lw {
 
@@ -26,7 +26,7 @@ class DescriptorSet {
     vk::DescriptorSet handle() const { return set_; }
     void set_buffer(uint32_t binding, const Buffer& buffer, uint32_t element = 0) const;
     /// A texture in layout eShaderReadOnlyOptimal, fetched without a sampler.
-    void set_texture(uint32_t binding, const Texture& texture) const;
+    void set_target(uint32_t binding, const Target& texture) const;
 
   private:
     const Device* device_;

@@ -11,8 +11,9 @@
 namespace lw {
 namespace {
 
-constexpr float patch_radii = 6;            // size of a patch in search radii (study: 4 to 8)
+constexpr float patch_radii = 8;            // size of a patch in search radii (study: 4 to 8)
 constexpr double references_per_cell = 2.5;
+constexpr double references_per_photon = 2.3;  // bound of the automatic radius; 2.5 is promised
 
 /// Averages of the triangles of one patch, for its frame.
 struct PatchShape {
@@ -156,8 +157,22 @@ bool needs_directions(const Scene& scene) {
     });
 }
 
+namespace {
+
+/// Starts from automatic_radius() and shrinks until references per photon stay below the bound.
+float bounded_radius(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings) {
+    settings.radius = automatic_radius(scene, photons.records.size());
+    for (int tries = 0; tries < 16; ++tries, settings.radius *= 0.85f) {
+        const Patches patches = group_triangles(scene, patch_radii * settings.radius);
+        if (sample_references(scene, caster, photons.records, patches, settings, 20000) < references_per_photon) break;
+    }
+    return settings.radius;
+}
+
+}  // namespace
+
 PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings) {
-    if (!(settings.radius > 0)) settings.radius = automatic_radius(scene, photons.records.size());
+    if (!(settings.radius > 0)) settings.radius = bounded_radius(scene, caster, photons, settings);
     PhotonMap map;
     map.scene_hash = scene.content_hash;
     map.settings = settings;

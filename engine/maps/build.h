@@ -10,7 +10,8 @@ namespace lw {
 /// Bounded by half the diagonal of the scene.
 float automatic_radius(const Scene& scene, uint64_t photons);
 
-/// Builds the maps. settings.radius of 0 is replaced by the automatic radius. Directions are kept only when a surface of
+/// Builds the maps. settings.radius of 0 is replaced by the automatic radius,
+/// made smaller while references per photon exceed 2.3. Directions are kept only when a surface of
 /// the scene needs them (a specular lobe or a normal map). Same input gives the same bytes at any thread count.
 PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings);
 

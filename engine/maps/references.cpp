@@ -69,6 +69,19 @@ class MapFinder {
 
 }  // namespace
 
+double sample_references(const Scene& scene, const RayCaster& caster, const std::vector<Photon>& photons,
+                         const Patches& patches, const BakeSettings& settings, size_t samples) {
+    const MapFinder finder(scene, caster, patches, settings);
+    const size_t step = std::max<size_t>(1, photons.size() / samples), count = photons.size() / step;
+    std::vector<std::vector<Reference>> chunks((count + 255) / 256);
+    parallel_for(chunks.size(), [&](size_t c) {
+        for (size_t i = c * 256; i < std::min(c * 256 + 256, count); ++i) finder.find(photons[i * step], 0, chunks[c]);
+    });
+    size_t found = 0;
+    for (const auto& chunk : chunks) found += chunk.size();
+    return count ? double(found) / double(count) : 0;
+}
+
 References find_references(const Scene& scene, const RayCaster& caster, const std::vector<Photon>& photons,
                            const Patches& patches, const BakeSettings& settings) {
     const MapFinder finder(scene, caster, patches, settings);

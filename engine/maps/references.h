@@ -22,4 +22,8 @@ struct References {
 References find_references(const Scene& scene, const RayCaster& caster, const std::vector<Photon>& photons,
                            const Patches& patches, const BakeSettings& settings);
 
+/// References per photon at this radius, from about `samples` photons spread over the whole set.
+double sample_references(const Scene& scene, const RayCaster& caster, const std::vector<Photon>& photons,
+                         const Patches& patches, const BakeSettings& settings, size_t samples);
+
 }  // namespace lw

@@ -21,7 +21,7 @@ const std::map<std::string, Names> allowed_folders = {
     {"trace", {"base", "image", "scene"}},
     {"photons", {"base", "scene", "trace"}},
     {"maps", {"base", "scene", "photons", "trace"}},
-    {"file", {"base", "maps"}},
+    {"file", {"base", "scene", "maps"}},
     {"gpu", {"base"}},
     {"gather", {"base", "image", "scene", "maps", "gpu"}},
 };

@@ -5,10 +5,10 @@
 namespace lw {
 
 /// Owns a 2D image with one level, its memory and a view of it.
-class Texture {
+class Target {
   public:
     /// Throws Error when the size is beyond the device's limits or memory.
-    Texture(const Device& device, vk::Extent2D size, vk::Format format, vk::ImageUsageFlags usage);
+    Target(const Device& device, vk::Extent2D size, vk::Format format, vk::ImageUsageFlags usage);
 
     vk::Image image() const { return *image_; }
     vk::ImageView view() const { return *view_; }

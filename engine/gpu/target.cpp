@@ -1,4 +1,4 @@
-#include "gpu/texture.h"
+#include "gpu/target.h"
 
 #include "base/error.h"
 
@@ -14,7 +14,7 @@ std::string size_text(vk::Extent2D size) { return std::to_string(size.width) + "
 
 }  // namespace
 
-Texture::Texture(const Device& device, vk::Extent2D size, vk::Format format, vk::ImageUsageFlags usage)
+Target::Target(const Device& device, vk::Extent2D size, vk::Format format, vk::ImageUsageFlags usage)
     : size_(size), format_(format) {
     const uint32_t limit = device.limits().maxImageDimension2D;
     if (size.width > limit || size.height > limit)
@@ -22,8 +22,15 @@ Texture::Texture(const Device& device, vk::Extent2D size, vk::Format format, vk:
                     size_text({limit, limit}));
     const vk::Device d = device.handle();
     try {
-        image_ = d.createImageUnique({{}, vk::ImageType::e2D, format, {size.width, size.height, 1}, 1, 1,
-                                      vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal, usage});
+        image_ = d.createImageUnique({{},
+                                      vk::ImageType::e2D,
+                                      format,
+                                      {size.width, size.height, 1},
+                                      1,
+                                      1,
+                                      vk::SampleCountFlagBits::e1,
+                                      vk::ImageTiling::eOptimal,
+                                      usage});
         const vk::MemoryRequirements needs = d.getImageMemoryRequirements(*image_);
         const int type = device.find_memory_type(needs.memoryTypeBits, vk::MemoryPropertyFlagBits::eDeviceLocal);
         if (type < 0) throw Error(device.name() + ": has no memory for pictures");
@@ -35,8 +42,8 @@ Texture::Texture(const Device& device, vk::Extent2D size, vk::Format format, vk:
     }
 }
 
-void Texture::change_layout(vk::CommandBuffer commands, vk::ImageLayout before, vk::ImageLayout after,
-                            vk::PipelineStageFlags2 from, vk::PipelineStageFlags2 to) const {
+void Target::change_layout(vk::CommandBuffer commands, vk::ImageLayout before, vk::ImageLayout after,
+                           vk::PipelineStageFlags2 from, vk::PipelineStageFlags2 to) const {
     const vk::ImageMemoryBarrier2 barrier(from, vk::AccessFlagBits2::eMemoryWrite, to,
                                           vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite, before,
                                           after, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image_,

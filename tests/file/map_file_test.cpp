@@ -1,0 +1,95 @@
+// The map file: round trip, and refusal of every kind of damage.
+#include "file/map_file.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+
+
+#include "base/error.h"
+#include "base/random.h"
+#include "maps/build.h"
+#include "photons/shoot.h"
+#include "scene/gltf.h"
+
+namespace lw {
+namespace {
+
+class MapFile : public testing::Test {
+  protected:
+    MapFile() : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/cube.gltf")), path(std::filesystem::temp_directory_path() / ("lw_map_" + std::to_string(getpid()) + ".pmap")) {
+        const RayCaster caster(scene);
+        map = build_photon_map(scene, caster, shoot_photons(scene, caster, {500, 1}), {500, 0, 60, 1});
+        save_photon_map(path, map);
+        std::ifstream in(path, std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    ~MapFile() override { std::filesystem::remove(path); }
+    void write(const std::string& content) { std::ofstream(path, std::ios::binary).write(content.data(), std::streamsize(content.size())); }
+
+    Scene scene;
+    std::filesystem::path path;
+    PhotonMap map;
+    std::string bytes;
+};
+
+TEST_F(MapFile, RoundTrips) {
+    const PhotonMap got = load_photon_map(path, scene);
+    EXPECT_EQ(got.stored_photons, map.stored_photons);
+    EXPECT_EQ(got.settings.radius, map.settings.radius);
+    ASSERT_EQ(got.places.size(), map.places.size());
+    EXPECT_EQ(std::memcmp(got.places.data(), map.places.data(), map.places.size() * sizeof(PhotonPlace)), 0);
+    EXPECT_EQ(got.fluxes, map.fluxes);
+    EXPECT_EQ(got.triangle_maps, map.triangle_maps);
+}
+
+TEST_F(MapFile, CutAtEveryLengthIsRefused) {
+    for (size_t length = 0; length < bytes.size(); ++length) {
+        write(bytes.substr(0, length));
+        EXPECT_THROW(load_photon_map(path, scene), Error) << length;
+    }
+}
+
+TEST_F(MapFile, FlippedBytesAreRefused) {
+    Rng rng(1, 1, 1);
+    for (int i = 0; i < 2000; ++i) {
+        std::string damaged = bytes;
+        damaged[size_t(rng.next() * float(bytes.size() - 1))] ^= char(1 << int(rng.next() * 7.99f));
+        write(damaged);
+        EXPECT_THROW(load_photon_map(path, scene), Error);
+    }
+}
+
+TEST_F(MapFile, OfAnotherSceneIsRefusedAndSaysWhichChanged) {
+    scene.content_hash ^= 1;
+    try {
+        load_photon_map(path, scene);
+        FAIL() << "accepted";
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("scene cube.gltf has changed"), std::string::npos) << e.what();
+    }
+}
+
+TEST_F(MapFile, DamagedMapSaysThatTheMapChanged) {
+    bytes.back() = char(bytes.back() ^ 1);
+    write(bytes);
+    try {
+        load_photon_map(path, scene);
+        FAIL() << "accepted";
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("the map file has changed"), std::string::npos) << e.what();
+    }
+}
+
+TEST_F(MapFile, IntoAMissingFolderIsRefusedAndLeavesNothing) {
+    EXPECT_THROW(save_photon_map("/nonexistent/folder/x.pmap", map), Error);
+    EXPECT_FALSE(std::filesystem::exists("/nonexistent/folder"));
+}
+
+TEST_F(MapFile, LambertSceneStoresNoDirections) { EXPECT_FALSE(map.has_directions()); }
+
+}  // namespace
+}  // namespace lw

@@ -1,0 +1,162 @@
+// The maps and the density estimate against closed forms and brute force.
+#include "maps/estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "maps/build.h"
+#include "maps/packing.h"
+#include "photons/shoot.h"
+#include "scene/gltf.h"
+#include "trace/emitter.h"
+#include "trace/path_tracer.h"
+
+namespace lw {
+namespace {
+
+std::string file_in_data(const std::string& name) { return std::string(LUMENWALK_SOURCE_DIR "/data/") + name; }
+
+struct Baked {
+    explicit Baked(const std::string& name, uint64_t count = 200000)
+        : scene(load_gltf(file_in_data(name))), caster(scene), photons(shoot_photons(scene, caster, {count, 1})),
+          map(build_photon_map(scene, caster, photons, {count, 0, 60, 1})), weights(light_weights(scene, {})) {}
+    Scene scene;
+    RayCaster caster;
+    Photons photons;
+    PhotonMap map;
+    std::vector<vec3> weights;
+};
+
+bool same_bytes(const PhotonMap& a, const PhotonMap& b) {
+    const auto same = [](const auto& x, const auto& y) { return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0; };
+    return same(a.places, b.places) && same(a.fluxes, b.fluxes) && same(a.directions, b.directions) && same(a.grids, b.grids) && same(a.cell_starts, b.cell_starts) && same(a.triangle_maps, b.triangle_maps);
+}
+
+TEST(Bake, GivesTheSameBytesAtOneAndTwoThreads) {
+    const ThreadLimit one(1);
+    const Baked first("cornell.gltf", 50000);
+    const ThreadLimit two(2);
+    const Baked second("cornell.gltf", 50000);
+    EXPECT_TRUE(same_bytes(first.map, second.map));
+}
+
+TEST(Bake, AnotherSeedGivesOtherPhotons) {
+    const Scene scene = load_gltf(file_in_data("cube.gltf"));
+    const RayCaster caster(scene);
+    const Photons a = shoot_photons(scene, caster, {1000, 1}), b = shoot_photons(scene, caster, {1000, 2});
+    ASSERT_FALSE(a.records.empty());
+    EXPECT_NE(a.records[0].position.x, b.records[0].position.x);
+}
+
+TEST(Photons, StoredFluxOfAClosedBoxIsEmittedOverOneMinusAlbedo) {
+    const Baked cube("cube.gltf");
+    double landed = 0;
+    for (const Photon& p : cube.photons.records) landed += double(p.flux.y);
+    EXPECT_NEAR(landed / (4 * M_PI), 1 / (1 - 0.5), 0.02);
+    EXPECT_NEAR(cube.photons.lights[0].flux_out, 4 * M_PI, 1e-3);
+    EXPECT_NEAR(cube.photons.lights[0].absorbed + cube.photons.lights[0].escaped, cube.photons.lights[0].flux_out, 1e-6);
+    EXPECT_NEAR(double(cube.photons.records.size()), 200000, 4000);
+}
+
+/// k nearest photons of the map over all its records, without the grid.
+Gathered brute_force(const Baked& baked, uint map, vec3 position, uint k) {
+    const SurfaceGrid& grid = baked.map.grids[map];
+    const vec3 offset = position - grid.origin;
+    const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+    std::vector<std::pair<float, uint>> near;
+    const uint begin = baked.map.cell_starts[grid.first_cell], end = baked.map.cell_starts[grid.first_cell + grid.columns * grid.rows];
+    for (uint i = begin; i < end; ++i) {
+        const vec3 d = place_in_grid(baked.map.places[i], grid) - local;
+        const float excess = std::max(std::abs(d.z) - 0.01f * baked.map.settings.radius, 0.0f);
+        if (dot(d, d) < baked.map.settings.radius * baked.map.settings.radius && excess * excess <= 0.75f * dot(d, d)) near.emplace_back(dot(d, d), i);
+    }
+    std::sort(near.begin(), near.end());
+    const bool full = near.size() >= k;
+    const size_t used = full ? k - 1 : near.size();
+    const float r2 = full ? near[k - 1].first : baked.map.settings.radius * baked.map.settings.radius;
+    Gathered sum{};
+    for (size_t i = 0; i < used; ++i)
+        sum.irradiance += unpack_rgb9e5(baked.map.fluxes[near[i].second]) * baked.weights[light_of(baked.map.places[near[i].second])] / (baked.map.flux_scale * lw_pi * r2);
+    sum.radius = std::sqrt(r2);
+    return sum;
+}
+
+TEST(Estimate, ExactModeEqualsBruteForce) {
+    const Baked baked("cornell.gltf");
+    const PhotonEstimator estimator(baked.scene, baked.map, baked.weights, {0, 50});
+    int compared = 0;
+    for (size_t i = 0; i < baked.photons.records.size(); i += 997) {
+        const Photon& p = baked.photons.records[i];
+        const uint map = baked.map.triangle_maps[2 * p.triangle + p.side()];
+        const Surface s = estimator.surface_at(p.triangle, {0.31f, 0.27f});
+        const float side = p.side() ? -1.0f : 1.0f;
+        const Gathered got = estimator.gather_photons(map, s, s.geometric_normal * side, s.normal * side, s.normal * side);
+        const Gathered expected = brute_force(baked, map, s.position, 50);
+        EXPECT_NEAR(got.radius, expected.radius, 1e-5f * expected.radius);
+        EXPECT_NEAR(got.irradiance.y, expected.irradiance.y, 1e-4f * expected.irradiance.y + 1e-6f);
+        ++compared;
+    }
+    EXPECT_GT(compared, 150);
+}
+
+TEST(Estimate, IntegratingSphereReadsItsIlluminance) {
+    const Baked baked("sphere.gltf", 400000);
+    for (const uint mode : {0u, 1u}) {
+        const PhotonEstimator estimator(baked.scene, baked.map, baked.weights, {mode, 100});
+        double sum = 0;
+        int count = 0;
+        for (uint t = 0; t < baked.scene.triangles.size(); t += 7, ++count) {
+            const Surface s = estimator.surface_at(t, {1 / 3.0f, 1 / 3.0f});
+            const vec3 inward = dot(s.geometric_normal, s.position) > 0 ? -s.geometric_normal : s.geometric_normal;
+            sum += double(estimator.estimate(t, {1 / 3.0f, 1 / 3.0f}, inward).irradiance.y);
+        }
+        EXPECT_NEAR(sum / count / 200, 1, 0.015) << "mode " << mode;
+    }
+}
+
+TEST(Estimate, InteriorOfTheCubeAgreesWithThePathTracer) {
+    const Baked baked("cube.gltf", 1000000);
+    const PathTracer tracer(baked.scene, baked.caster, baked.weights);
+    for (const uint mode : {0u, 1u}) {
+        const PhotonEstimator estimator(baked.scene, baked.map, baked.weights, {mode, 200});
+        double map_sum = 0, truth_sum = 0;
+        for (uint t = 0; t < baked.scene.triangles.size(); ++t)
+            for (int i = 0; i < 20; ++i) {
+                Rng place(4, t, uint64_t(i));
+                const float a = 0.2f + 0.4f * place.next(), b = 0.2f + 0.2f * place.next();
+                const Surface s = estimator.surface_at(t, {a, b});
+                const vec3 inward = dot(s.geometric_normal, s.position) > 0 ? -s.geometric_normal : s.geometric_normal;
+                map_sum += double(estimator.estimate(t, {a, b}, inward).irradiance.y);
+                for (int n = 0; n < 200; ++n) truth_sum += double(tracer.irradiance(s.position, inward, place).y) / 200;
+            }
+        EXPECT_NEAR(map_sum / truth_sum, 1, 0.01) << "mode " << mode;
+    }
+}
+
+TEST(Estimate, ReferencesPerPhotonStayBounded) {
+    for (const char* name : {"cornell.gltf", "sphere.gltf", "cube.gltf"}) {
+        const Baked baked(name);
+        EXPECT_LE(double(baked.map.places.size()) / double(baked.map.stored_photons), 2.5) << name;
+    }
+}
+
+TEST(Packing, RoundTripsWithinItsStep) {
+    Rng rng(1, 1, 1);
+    for (int i = 0; i < 10000; ++i) {
+        const float scale = std::exp2(24 * rng.next() - 12);
+        const vec3 c(scale * rng.next(), scale * rng.next(), scale);
+        const vec3 got = unpack_rgb9e5(pack_rgb9e5(c));
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[k], c[k], scale / 500);
+        const vec3 d = normalize(vec3(rng.next() - 0.5f, rng.next() - 0.5f, rng.next() - 0.5f) + vec3(1e-4f));
+        EXPECT_GT(dot(d, unpack_direction(pack_direction(d))), 0.9999999f - 1e-6f);
+    }
+    EXPECT_EQ(pack_rgb9e5(vec3(0)), 0u);
+    EXPECT_EQ(pack_rgb9e5(vec3(std::nanf(""), -1, 0)), 0u);
+}
+
+}  // namespace
+}  // namespace lw

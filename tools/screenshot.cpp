@@ -1,0 +1,147 @@
+// lumenwalk-screenshot: a picture of a baked scene, gathered on the GPU.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "base/error.h"
+#include "file/map_file.h"
+#include "gather/renderer.h"
+#include "image/exr.h"
+#include "image/png.h"
+#include "scene/camera.h"
+#include "scene/gltf.h"
+
+namespace {
+
+struct Options {
+    std::string scene, map, output, camera, size, gather = "smooth", device;
+    std::vector<std::string> powers;
+    unsigned neighbours = 200, samples = 1, frames = 3;
+    std::optional<float> exposure;
+    bool list_cameras = false, list_lights = false, list_devices = false, validation = false;
+    bool lists() const { return list_cameras || list_lights || list_devices; }
+};
+
+void add_options(CLI::App& app, Options& o) {
+    app.add_option("scene", o.scene, "glTF 2.0 scene, .glb or .gltf");
+    app.add_option("map", o.map, "photon map of lumenwalk-bake; default: SCENE.pmap beside the scene");
+    app.add_option("-o,--output", o.output, "picture: .exr (cd/m2, lux, m) or .png (exposed, 8 bits)");
+    app.add_option("--camera", o.camera, "name of a camera of the scene; default: the first");
+    app.add_option("--size", o.size, "pixels as WxH; default: 1280 wide with the aspect of the camera");
+    app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated");
+    app.add_option("--neighbours", o.neighbours, "photons per estimate")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    app.add_option("--gather", o.gather, "smooth (fast) or exact (k nearest photons)")
+        ->check(CLI::IsMember({"smooth", "exact"}))
+        ->capture_default_str();
+    app.add_option("--exposure", o.exposure, "EV100; default: from the picture");
+    app.add_option("--samples", o.samples, "views averaged per pixel")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    app.add_option("--device", o.device, "part of the name of a Vulkan device; default: the fastest kind");
+    app.add_option("--frames", o.frames, "frames to time, the median is told")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    app.add_flag("--validation", o.validation, "run with the Vulkan validation layer; any message is an error");
+    app.add_flag("--list-cameras", o.list_cameras, "print the cameras of the scene");
+    app.add_flag("--list-lights", o.list_lights, "print the lamps of the scene");
+    app.add_flag("--list-devices", o.list_devices, "print the Vulkan devices");
+}
+
+/// Whether the text is WxH with both from 1 to 65536.
+bool parse_size(const std::string& text, unsigned& width, unsigned& height) {
+    int used = 0;
+    return text.size() < 16 && std::sscanf(text.c_str(), "%5ux%5u%n", &width, &height, &used) == 2 &&
+           size_t(used) == text.size() && text.find_first_of("-+ ") == std::string::npos && width > 0 && height > 0;
+}
+
+/// What is wrong with the command line, or "".
+std::string misuse_of(const Options& o) {
+    unsigned width = 0, height = 0;
+    const std::string extension = std::filesystem::path(o.output).extension().string();
+    if (o.scene.empty() && (!o.lists() || o.list_cameras || o.list_lights)) return "a scene is required";
+    if (!o.lists() && extension != ".exr" && extension != ".png") return "--output: must end in .exr or .png";
+    if (!o.size.empty() && !parse_size(o.size, width, height)) return "--size: must be WxH in pixels, as 1280x720";
+    for (const std::string& power : o.powers)
+        if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
+    return "";
+}
+
+void print_lists(const Options& o) {
+    if (o.list_devices)
+        for (const std::string& name : lw::device_names()) std::cout << name << "\n";
+    if (!o.list_cameras && !o.list_lights) return;
+    const lw::Scene scene = lw::load_gltf(o.scene);
+    if (o.list_cameras)
+        for (const lw::Camera& camera : scene.cameras) std::cout << camera.name << "\n";
+    if (o.list_lights)
+        for (const std::string& name : scene.light_names) std::cout << name << "\n";
+}
+
+vk::Extent2D picture_size(const Options& o, const lw::Camera& camera) {
+    unsigned width = 1280, height = 720;
+    if (!o.size.empty())
+        parse_size(o.size, width, height);
+    else if (camera.aspect > 0)
+        height = std::max(1u, unsigned(float(width) / camera.aspect + 0.5f));
+    return {width, height};
+}
+
+void write_picture(const std::filesystem::path& path, const lw::Rendering& picture) {
+    if (path.extension() == ".exr")
+        lw::write_exr(path, picture.image);
+    else
+        lw::write_png(path, picture.screen);
+}
+
+void refuse_validation_messages(const lw::Device& device) {
+    const std::vector<std::string> messages = device.validation_messages();
+    if (!messages.empty())
+        throw lw::Error("Vulkan validation: " + std::to_string(messages.size()) + " messages, first: " + messages[0]);
+}
+
+void take_screenshot(const Options& o) {
+    const lw::Scene scene = lw::load_gltf(o.scene);
+    for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
+    const lw::Camera& camera = lw::find_camera(scene, o.camera);
+    const std::vector<float> factors = lw::parse_powers(scene, o.powers);
+    const lw::PhotonMap map =
+        lw::load_photon_map(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map), scene);
+    const lw::Device device({o.device, o.validation});
+    lw::Resident resident(device, scene, map);
+    resident.set_light_factors(factors);
+    const vk::Extent2D size = picture_size(o, camera);
+    lw::Renderer renderer(device, resident, size.width, size.height);
+    const lw::GatherSettings gather{o.gather == "exact" ? 0u : 1u, o.neighbours};
+    const lw::Rendering picture = renderer.render(camera, {gather, o.exposure, o.samples, o.frames});
+    refuse_validation_messages(device);
+    write_picture(o.output, picture);
+    std::printf("%s: %ux%u on %s, %.0f MiB on the device, EV %.2f\n", o.output.c_str(), size.width, size.height,
+                device.name().c_str(), double(resident.bytes()) / 1048576.0, double(picture.exposure_ev));
+    std::printf("visibility %.2f ms, gather %.2f ms, tone mapping %.2f ms (median of %u)\n",
+                picture.times.visibility_ms, picture.times.gather_ms, picture.times.tonemap_ms, o.frames);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app("Renders a baked scene on the GPU.", "lumenwalk-screenshot");
+    add_options(app, options);
+    try {
+        app.parse(argc, argv);
+        const std::string misuse = misuse_of(options);
+        if (!misuse.empty()) throw CLI::ValidationError(misuse);
+    } catch (const CLI::ParseError& wrong) {
+        return app.exit(wrong) == 0 ? 0 : 2;
+    }
+    try {
+        options.lists() ? print_lists(options) : take_screenshot(options);
+    } catch (const std::exception& failure) {
+        std::cerr << "lumenwalk-screenshot: " << failure.what() << "\n";
+        return 1;
+    }
+    return 0;
+}
