@@ -20,6 +20,7 @@ void add_photon(uint i, float kernel, Surface s, vec3 n_geometric, vec3 n_shadin
         sum.radiance += flux * eval_brdf(s, n_shading, to_view, n_shading, true);
         return;
     }
+    s.roughness = max(s.roughness, narrowest_gathered_roughness);
     vec3 to_light = unpack_direction(photon_direction(i));
     float cos_shading = dot(n_shading, to_light);
     float cos_geometric = max(dot(n_geometric, to_light), 0.05f);

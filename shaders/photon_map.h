@@ -34,6 +34,10 @@ struct PhotonPlace {
     uint h_light_and_path;  // low 16: height step; high 16: light | path << 14
 };
 
+/// Photons cannot resolve a narrower lobe: below this glTF roughness the highlight is widened, which keeps its energy
+/// and trades its sharpness for freedom from blotches.
+LW_CONST float narrowest_gathered_roughness = 0.55f;
+
 /// What the photons around a point say. radiance in cd/m2, irradiance in lux per RGB channel.
 struct Gathered {
     vec3 radiance;

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "photons/aim.h"
 #include "trace/bsdf.h"
 #include "trace/emitter.h"
 #include "trace/sampling.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr uint64_t chunk_size = 4096;   // paths per task
 constexpr uint64_t pilot_paths = 8192;  // per lamp, to learn what it stores
+constexpr uint64_t aim_paths = 131072;  // per sun, to learn where its light enters
 constexpr int longest_path = 10000;
 
 double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
@@ -30,9 +32,12 @@ struct Chunk {
 class Shooter {
   public:
     Shooter(const Scene& scene, const RayCaster& caster, uint64_t seed)
-        : caster_(caster), surfaces_(scene), emitters_(scene), seed_(seed) {}
+        : caster_(caster), surfaces_(scene), emitters_(scene), aims_(scene.lights.size()), seed_(seed) {}
 
-    float unit_flux(uint light) const { return emitters_.unit_flux(light); }
+    void aim(uint light, Aim aim) { aims_[light] = std::move(aim); }
+
+    /// The five emission numbers of a path, before aiming: Owen-scrambled Sobol.
+    std::array<float, 5> numbers(uint light, uint64_t index) const;
 
     /// Traces the paths of a chunk; each photon carries 1 / emitted of the lamp's flux.
     void trace(Chunk& chunk, double emitted) const {
@@ -45,14 +50,21 @@ class Shooter {
     const RayCaster& caster_;
     SurfaceReader surfaces_;
     Emitters emitters_;
+    std::vector<Aim> aims_;
     uint64_t seed_;
 };
 
+std::array<float, 5> Shooter::numbers(uint light, uint64_t index) const {
+    const auto scramble = uint32_t(mix64(seed_ * 0x10001 + light));
+    std::array<float, 5> u;
+    for (int d = 0; d < 5; ++d) u[size_t(d)] = sobol_owen(uint32_t(index), d, scramble);
+    return u;
+}
+
 void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
     Rng rng(seed_, chunk.light + 1, index);
-    std::array<float, 5> u;
-    const auto scramble = uint32_t(mix64(seed_ * 0x10001 + chunk.light));
-    for (int d = 0; d < 5; ++d) u[size_t(d)] = sobol_owen(uint32_t(index), d, scramble);
+    std::array<float, 5> u = numbers(chunk.light, index);
+    share *= aims_[chunk.light].warp(u);
     const Emission photon = emitters_.emit(chunk.light, u);
     vec3 flux = photon.flux * share, origin = caster_.offset(photon.origin, photon.normal), direction = photon.direction;
     uint path = path_direct;
@@ -95,6 +107,25 @@ std::vector<Chunk> split_paths(const std::vector<uint64_t>& emitted, const std::
     return chunks;
 }
 
+/// Learns from where on its disc each sun lights the scene by more than one bounce.
+void aim_suns(Shooter& shooter, const Scene& scene) {
+    for (uint light = 0; light < scene.lights.size(); ++light) {
+        if (scene.lights[light].type != light_directional) continue;
+        std::vector<double> useful_per_path(aim_paths, 0);
+        parallel_for(aim_paths, [&](size_t i) {
+            Chunk path{light, i, i + 1, {}, 0, 0, 0};
+            shooter.trace(path, double(aim_paths));
+            for (const Photon& p : path.photons) useful_per_path[i] += p.path() == path_direct ? 0 : luminance(p.flux);
+        }, 1024);
+        std::vector<double> useful(Aim::side * Aim::side, 0);
+        for (size_t i = 0; i < aim_paths; ++i) {
+            const std::array<float, 5> u = shooter.numbers(light, i);
+            useful[size_t(u[0] * Aim::side) * Aim::side + size_t(u[1] * Aim::side)] += useful_per_path[i];
+        }
+        shooter.aim(light, Aim(useful));
+    }
+}
+
 /// How many paths each lamp gets so that `wanted` photons are stored in all.
 std::vector<uint64_t> plan_emission(const Shooter& shooter, const Scene& scene, uint64_t wanted) {
     const size_t count = scene.lights.size();
@@ -125,7 +156,8 @@ std::vector<uint64_t> plan_emission(const Shooter& shooter, const Scene& scene, 
 
 Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSettings& settings) {
     if (scene.lights.size() > light_mask) throw Error(scene.path.filename().string() + ": more than 16383 lamps");
-    const Shooter shooter(scene, caster, settings.seed);
+    Shooter shooter(scene, caster, settings.seed);
+    aim_suns(shooter, scene);
     const std::vector<uint64_t> emitted = plan_emission(shooter, scene, settings.photons);
     std::vector<Chunk> chunks = split_paths(emitted, std::vector<uint64_t>(emitted.size(), 0));
     uint64_t paths = 0;
