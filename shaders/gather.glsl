@@ -46,13 +46,13 @@ bool covers_grid(SurfaceGrid grid, ivec2 cell, int ring) LW_MEMBER {
 }
 
 /// Exact k nearest photons with a bounded max-heap, nearest cells first; sum over the k-1 nearer ones / (pi r_k^2),
-/// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside max_radius: all of them over its disc.
+/// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside the map's radius: all of them over its disc.
 Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
     float heap_distance[heap_size];
     uint heap_photon[heap_size];
     uint k = min(neighbours, heap_size);
     uint count = 0u;
-    float bound = max_radius * max_radius;
+    float bound = grid.radius * grid.radius;
     ivec2 cell = cell_of(local, grid);
     for (int ring = 0;; ++ring) {
         for (int y = cell.y - ring; y <= cell.y + ring; ++y) {
@@ -99,7 +99,7 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
     sum.radiance = vec3(0.0f);
     sum.irradiance = vec3(0.0f);
     bool full = count == k;
-    float radius_squared = max(full ? heap_distance[0] : max_radius * max_radius, 1e-12f * max_radius * max_radius);
+    float radius_squared = max(full ? heap_distance[0] : grid.radius * grid.radius, 1e-12f * grid.radius * grid.radius);
     sum.radius = sqrt(radius_squared);
     sum.photons = float(full ? count - 1u : count);
     float kernel = 1.0f / (lw_pi * radius_squared);
@@ -112,7 +112,7 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
 float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
     ivec2 cell = cell_of(local, grid);
     float wanted = 1.25f * float(neighbours);
-    int last_ring = int(max_radius / grid.cell_size) + 1;
+    int last_ring = int(grid.radius / grid.cell_size) + 1;
     float count = 0.0f;
     float area = 0.0f;
     int ring = 0;
@@ -129,8 +129,8 @@ float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
         area = float(max(x1 - x0 + 1, 1)) * float(max(y1 - y0 + 1, 1)) * grid.cell_size * grid.cell_size;
         if (count >= wanted || covers_grid(grid, cell, ring)) break;
     }
-    if (count < 1.0f) return max_radius;
-    return clamp(sqrt(float(neighbours) * area / (lw_pi * count)), min(0.5f * grid.cell_size, max_radius), max_radius);
+    if (count < 1.0f) return grid.radius;
+    return clamp(sqrt(float(neighbours) * area / (lw_pi * count)), min(0.5f * grid.cell_size, grid.radius), grid.radius);
 }
 
 /// One pass with an Epanechnikov kernel 2 / (pi r^2) (1 - d^2 / r^2) (Silverman 1986), no heap.

@@ -26,6 +26,7 @@ struct SurfaceGrid {
     uint first_cell;
     vec3 quantum;      // metres per step of the 16-bit u, v, h of its records
     float h_origin;    // height of step 0 along the normal
+    float radius;      // largest search radius of this map, m
 };
 
 /// Where a referenced photon lies in its map, and which light it came from (8 bytes).
@@ -74,7 +75,7 @@ LW_INLINE vec3 unpack_direction(uint bits) {
 }
 
 #ifdef __cplusplus
-static_assert(sizeof(SurfaceGrid) == 80 && offsetof(SurfaceGrid, h_origin) == 76 && sizeof(PhotonPlace) == 8);
+static_assert(sizeof(SurfaceGrid) == 84 && offsetof(SurfaceGrid, radius) == 80 && sizeof(PhotonPlace) == 8);
 }  // namespace lw
 #endif
 #endif

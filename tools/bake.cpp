@@ -41,26 +41,31 @@ float parse_radius(const std::string& text) {
     if (text == "auto") return 0;
     size_t used = 0;
     const float radius = std::stof(text, &used);
-    if (used != text.size() || !(radius > 0)) throw lw::Error("--radius " + text + ": give a positive number of metres, or auto");
+    if (used != text.size() || !(radius > 0))
+        throw lw::Error("--radius " + text + ": give a positive number of metres, or auto");
     return radius;
 }
 
 void print_lights(const lw::Scene& scene, const lw::Photons& photons) {
-    std::printf("%-24s %12s %12s %14s %14s %14s %10s\n", "lamp (unit power)", "emitted", "stored", "flux out lm", "absorbed lm", "escaped lm", "balance");
+    std::printf("%-24s %12s %12s %14s %14s %14s %10s\n", "lamp (unit power)", "emitted", "stored", "flux out lm",
+                "absorbed lm", "escaped lm", "balance");
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const lw::LightBalance& b = photons.lights[i];
         const double missing = b.flux_out > 0 ? (b.absorbed + b.escaped) / b.flux_out - 1 : 0;
-        std::printf("%-24s %12llu %12llu %14.6g %14.6g %14.6g %+9.1e\n", scene.light_names[i].c_str(), (unsigned long long)b.emitted,
-                    (unsigned long long)b.stored, b.flux_out, b.absorbed, b.escaped, missing);
+        std::printf("%-24s %12llu %12llu %14.6g %14.6g %14.6g %+9.1e\n", scene.light_names[i].c_str(),
+                    (unsigned long long)b.emitted, (unsigned long long)b.stored, b.flux_out, b.absorbed, b.escaped,
+                    missing);
         if (b.stored == 0) std::printf("  warning: no photon of %s met a surface\n", scene.light_names[i].c_str());
     }
 }
 
 void print_map(const lw::PhotonMap& map, size_t triangles) {
-    const size_t bytes = map.places.size() * (8 + 4 + (map.has_directions() ? 4 : 0)) + map.cell_starts.size() * 4 + map.grids.size() * sizeof(lw::SurfaceGrid) + map.triangle_maps.size() * 4;
+    const size_t bytes = map.places.size() * (8 + 4 + (map.has_directions() ? 4 : 0)) + map.cell_starts.size() * 4 +
+                         map.grids.size() * sizeof(lw::SurfaceGrid) + map.triangle_maps.size() * 4;
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    std::printf("%zu triangles, %zu maps, radius %.4g m, %.3f references per photon\n", triangles, map.grids.size(), double(map.settings.radius),
+    std::printf("%zu triangles, %zu maps, radius %.4g m, %.3f references per photon\n", triangles, map.grids.size(),
+                double(map.settings.radius),
                 double(map.places.size()) / double(std::max<uint64_t>(map.stored_photons, 1)));
     std::printf("map %.1f MB (%.1f bytes per stored photon), peak memory %.0f MB\n", double(bytes) / 1e6,
                 double(bytes) / double(std::max<uint64_t>(map.stored_photons, 1)), double(usage.ru_maxrss) / 1024);
@@ -77,9 +82,10 @@ void bake(const Options& options) {
     clock.finish("hierarchy");
     const lw::Photons photons = lw::shoot_photons(scene, caster, {settings.photons, settings.seed});
     clock.finish("trace");
-    const lw::PhotonMap map = lw::build_photon_map(scene, caster, photons, settings);
+    const lw::PhotonMap map = lw::build_photon_map(scene, photons, settings);
     clock.finish("maps");
-    const std::filesystem::path output = options.output.empty() ? lw::default_map_path(options.scene) : std::filesystem::path(options.output);
+    const std::filesystem::path output =
+        options.output.empty() ? lw::default_map_path(options.scene) : std::filesystem::path(options.output);
     lw::save_photon_map(output, map);
     clock.finish("write");
     print_lights(scene, photons);
@@ -94,12 +100,18 @@ int main(int argc, char** argv) {
     CLI::App app{"Traces the photons of a glTF building and writes its photon map (unit power per lamp)."};
     app.add_option("scene", options.scene, "glTF 2.0 file, .gltf or .glb")->required();
     app.add_option("-o,--output", options.output, "photon map to write (default: beside the scene, .pmap)");
-    app.add_option("--photons", options.photons, "photons to store")->capture_default_str()->check(CLI::Range(uint64_t(1), uint64_t(2'000'000'000)));
+    app.add_option("--photons", options.photons, "photons to store")
+        ->capture_default_str()
+        ->check(CLI::Range(uint64_t(1), uint64_t(2'000'000'000)));
     app.add_option("--radius", options.radius, "largest search radius in metres, or auto")->capture_default_str();
-    app.add_option("--neighbour-angle", options.neighbour_angle_deg, "largest angle in degrees between the normals of a photon and a map")
-        ->capture_default_str()->check(CLI::Range(0.0, 89.0));
+    app.add_option("--neighbour-angle", options.neighbour_angle_deg,
+                   "largest angle in degrees between the normals of a photon and a map")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 89.0));
     app.add_option("--seed", options.seed, "seed of the random numbers")->capture_default_str();
-    app.add_option("--threads", options.threads, "worker threads (0: all cores)")->capture_default_str()->check(CLI::Range(0u, 4096u));
+    app.add_option("--threads", options.threads, "worker threads (0: all cores)")
+        ->capture_default_str()
+        ->check(CLI::Range(0u, 4096u));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -21,19 +21,22 @@ struct Options {
 
 void parse_size(const std::string& text, int& width, int& height) {
     char end = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 || height < 1 || width > 16384 || height > 16384)
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 || height < 1 || width > 16384 ||
+        height > 16384)
         throw lw::Error("--size " + text + ": write WIDTHxHEIGHT in pixels, at most 16384 each");
 }
 
 void render(Options& options) {
     const lw::ThreadLimit limit(options.threads);
     parse_size(options.size, options.settings.width, options.settings.height);
-    if (options.settings.samples == 0) options.settings.samples = options.settings.seconds > 0 || options.settings.error > 0 ? 1u << 20 : 256;
+    if (options.settings.samples == 0)
+        options.settings.samples = options.settings.seconds > 0 || options.settings.error > 0 ? 1u << 20 : 256;
     const lw::Scene scene = lw::load_gltf(options.scene);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     const lw::RayCaster caster(scene);
     const std::vector<lw::vec3> weights = lw::light_weights(scene, lw::parse_powers(scene, options.powers));
-    const lw::Reference reference = lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
+    const lw::Reference reference =
+        lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
     lw::write_exr(options.output, reference.image);
     std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n", options.output.c_str(),
                 (unsigned long long)reference.samples, reference.relative_error);
@@ -44,18 +47,25 @@ void render(Options& options) {
 int main(int argc, char** argv) {
     Options options;
     options.settings.samples = 0;
-    CLI::App app{"Renders a glTF building by unbiased path tracing on the CPU: radiance in cd/m2, illuminance in lux, standard errors."};
+    CLI::App app{
+        "Renders a glTF building by unbiased path tracing on the CPU: radiance in cd/m2, illuminance in lux, standard "
+        "errors."};
     app.add_option("scene", options.scene, "glTF 2.0 file, .gltf or .glb")->required();
     app.add_option("-o,--output", options.output, "EXR picture to write")->required();
     app.add_option("--camera", options.camera, "camera by name (default: the first)");
     app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    app.add_option("--samples", options.settings.samples, "paths per pixel (default 256, without limit when --time or --error is given)");
+    app.add_option("--samples", options.settings.samples,
+                   "paths per pixel (default 256, without limit when --time or --error is given)");
     app.add_option("--time", options.settings.seconds, "stop after this many seconds");
-    app.add_option("--error", options.settings.error, "stop at this relative standard error of the picture, such as 0.01");
+    app.add_option("--error", options.settings.error,
+                   "stop at this relative standard error of the picture, such as 0.01");
     app.add_option("--power", options.powers, "LIGHT=FACTOR, scales a lamp; repeatable");
-    app.add_flag("!--no-illuminance", options.settings.illuminance, "leave out the illuminance channel (half the time)");
+    app.add_flag("!--no-illuminance", options.settings.illuminance,
+                 "leave out the illuminance channel (half the time)");
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
-    app.add_option("--threads", options.threads, "worker threads (0: all cores)")->capture_default_str()->check(CLI::Range(0u, 4096u));
+    app.add_option("--threads", options.threads, "worker threads (0: all cores)")
+        ->capture_default_str()
+        ->check(CLI::Range(0u, 4096u));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -88,7 +88,8 @@ uint64_t checksum_of(const Header& header, const PhotonMap& map) {
 bool all_finite(const SurfaceGrid& g) {
     const auto finite = [](vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
     return finite(g.origin) && finite(g.u_axis) && finite(g.v_axis) && finite(g.normal) && finite(g.quantum) &&
-           std::isfinite(g.h_origin) && std::isfinite(g.cell_size) && g.cell_size > 0;
+           std::isfinite(g.h_origin) && std::isfinite(g.cell_size) && g.cell_size > 0 && std::isfinite(g.radius) &&
+           g.radius > 0;
 }
 
 void check_grids(const std::filesystem::path& path, const PhotonMap& map) {
@@ -102,36 +103,43 @@ void check_grids(const std::filesystem::path& path, const PhotonMap& map) {
     }
     if (cells + 1 != map.cell_starts.size()) refuse(path, "cells and grids do not agree");
     for (size_t c = 0; c + 1 < map.cell_starts.size(); ++c)
-        if (map.cell_starts[c] > map.cell_starts[c + 1]) refuse(path, "cell " + std::to_string(c) + " ends before it starts");
+        if (map.cell_starts[c] > map.cell_starts[c + 1])
+            refuse(path, "cell " + std::to_string(c) + " ends before it starts");
     if (map.cell_starts.back() != map.places.size()) refuse(path, "cells and references do not agree");
 }
 
 void check_indices(const std::filesystem::path& path, const PhotonMap& map, const Scene& scene) {
     if (map.cell_starts.empty()) refuse(path, "it has no cells");
     if (map.emitted.size() != scene.lights.size()) refuse(path, "the number of lamps does not agree with the scene");
-    if (map.triangle_maps.size() != 2 * scene.triangles.size()) refuse(path, "the number of triangles does not agree with the scene");
+    if (map.triangle_maps.size() != 2 * scene.triangles.size())
+        refuse(path, "the number of triangles does not agree with the scene");
     if (map.fluxes.size() != map.places.size() || (map.has_directions() && map.directions.size() != map.places.size()))
         refuse(path, "the record arrays differ in length");
     check_grids(path, map);
     for (uint index : map.triangle_maps)
-        if (index != no_map && index >= map.grids.size()) refuse(path, "a triangle refers to grid " + std::to_string(index) + " which does not exist");
+        if (index != no_map && index >= map.grids.size())
+            refuse(path, "a triangle refers to grid " + std::to_string(index) + " which does not exist");
     for (const PhotonPlace& place : map.places)
-        if (light_of(place) >= scene.lights.size()) refuse(path, "a photon refers to lamp " + std::to_string(light_of(place)) + " which does not exist");
+        if (light_of(place) >= scene.lights.size())
+            refuse(path, "a photon refers to lamp " + std::to_string(light_of(place)) + " which does not exist");
 }
 
 Header read_header(std::ifstream& in, const std::filesystem::path& path, uint64_t file_size) {
     Header header{};
-    if (file_size < sizeof header || !in.read(reinterpret_cast<char*>(&header), sizeof header)) refuse(path, "too short for a photon map");
+    if (file_size < sizeof header || !in.read(reinterpret_cast<char*>(&header), sizeof header))
+        refuse(path, "too short for a photon map");
     if (header.magic != magic) throw Error(path.string() + ": not a Lumenwalk photon map");
     if (header.version != version || header.sections != section_count)
-        refuse(path, "written by another version (" + std::to_string(header.version) + ", this program reads " + std::to_string(version) + ")");
+        refuse(path, "written by another version (" + std::to_string(header.version) + ", this program reads " +
+                         std::to_string(version) + ")");
     uint64_t left = file_size - sizeof header;
     for (uint64_t bytes : header.bytes) {
         if (bytes > left) refuse(path, "it is cut short or its section sizes are wrong");
         left -= bytes;
     }
     if (left) refuse(path, "it has bytes after its last section");
-    if (!(header.radius > 0) || !std::isfinite(header.radius) || !(header.flux_scale > 0) || !std::isfinite(header.flux_scale))
+    if (!(header.radius > 0) || !std::isfinite(header.radius) || !(header.flux_scale > 0) ||
+        !std::isfinite(header.flux_scale))
         refuse(path, "its radius or flux scale is not valid");
     return header;
 }
@@ -139,8 +147,19 @@ Header read_header(std::ifstream& in, const std::filesystem::path& path, uint64_
 }  // namespace
 
 void save_photon_map(const std::filesystem::path& path, const PhotonMap& map) {
-    Header header{magic, version, section_count, 0, map.scene_hash, map.settings.photons, map.stored_photons, map.settings.seed,
-                  map.settings.radius, map.settings.neighbour_angle_deg, map.flux_scale, 0, {}};
+    Header header{magic,
+                  version,
+                  section_count,
+                  0,
+                  map.scene_hash,
+                  map.settings.photons,
+                  map.stored_photons,
+                  map.settings.seed,
+                  map.settings.radius,
+                  map.settings.neighbour_angle_deg,
+                  map.flux_scale,
+                  0,
+                  {}};
     size_t s = 0;
     for_each_section(map, [&](const auto& section) { header.bytes[s++] = byte_size(section); });
     header.checksum = checksum_of(header, map);
@@ -170,7 +189,8 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
     if (failure || !in) throw Error(path.string() + ": no photon map here; make one with lumenwalk-bake");
     const Header header = read_header(in, path, file_size);
     if (header.scene_hash != scene.content_hash)
-        throw Error(path.string() + ": the scene " + scene.path.filename().string() + " has changed since this map was baked, or the map is of another scene; bake it again");
+        throw Error(path.string() + ": the scene " + scene.path.filename().string() +
+                    " has changed since this map was baked, or the map is of another scene; bake it again");
 
     PhotonMap map;
     map.scene_hash = header.scene_hash;
@@ -180,11 +200,14 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
     size_t s = 0;
     for_each_section(map, [&](auto& section) {
         const uint64_t bytes = header.bytes[s++];
-        if (bytes % sizeof(section[0])) refuse(path, "section " + std::to_string(s) + " is not a whole number of records");
+        if (bytes % sizeof(section[0]))
+            refuse(path, "section " + std::to_string(s) + " is not a whole number of records");
         section.resize(bytes / sizeof(section[0]));
-        if (!in.read(reinterpret_cast<char*>(section.data()), std::streamsize(bytes))) refuse(path, "it could not be read to its end");
+        if (!in.read(reinterpret_cast<char*>(section.data()), std::streamsize(bytes)))
+            refuse(path, "it could not be read to its end");
     });
-    if (checksum_of(header, map) != header.checksum) refuse(path, "the map file has changed since it was written (checksum)");
+    if (checksum_of(header, map) != header.checksum)
+        refuse(path, "the map file has changed since it was written (checksum)");
     check_indices(path, map, scene);
     return map;
 }

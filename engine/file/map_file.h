@@ -8,7 +8,8 @@
 
 namespace lw {
 
-/// Writes beside `path` and renames, so that an old file stays whole until the new one is. Throws Error naming the file.
+/// Writes beside `path` and renames, so that an old file stays whole until the new one is. Throws Error naming the
+/// file.
 void save_photon_map(const std::filesystem::path& path, const PhotonMap& map);
 
 /// Reads and checks a map: magic, version, sizes, checksum, every index, and that it was baked from `scene`.

@@ -11,50 +11,18 @@
 namespace lw {
 namespace {
 
-constexpr float patch_radii = 8;            // size of a patch in search radii (study: 4 to 8)
+constexpr float patch_size_in_radii = 6;  // size of a patch in search radii (study: 4 to 8)
 constexpr double references_per_cell = 2.5;
-constexpr double references_per_photon = 2.3;  // bound of the automatic radius; 2.5 is promised
+constexpr double references_per_photon = 2.3;  // what small patches are tightened to; 2.5 is promised
 
-/// Averages of the triangles of one patch, for its frame.
-struct PatchShape {
-    glm::dvec3 normal_sum{0};
-    vec3 longest_edge{0};
-    vec3 any_corner{0};
-    float longest = -1;
-};
-
-std::vector<PatchShape> shapes_of(const Scene& scene, const Patches& patches) {
-    std::vector<PatchShape> shapes(patches.count);
-    for (size_t t = 0; t < scene.triangles.size(); ++t) {
-        const uvec3 corner = scene.triangles[t];
-        const std::array<vec3, 3> p{scene.positions[corner.x], scene.positions[corner.y], scene.positions[corner.z]};
-        const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
-        for (uint side = 0; side < 2; ++side) {
-            PatchShape& shape = shapes[patches.of_side[2 * t + side]];
-            shape.normal_sum += glm::dvec3(side ? -product : product);
-            for (size_t e = 0; e < 3; ++e) {
-                const vec3 edge = p[(e + 1) % 3] - p[e];
-                if (length(edge) <= shape.longest) continue;
-                shape.longest = length(edge);
-                shape.longest_edge = edge;
-                shape.any_corner = p[e];
-            }
-        }
-    }
-    return shapes;
-}
-
-/// Orthonormal frame of a patch; origin and sizes follow from its photons.
-SurfaceGrid frame_of(const PatchShape& shape) {
+/// The grid in the frame of its patch; origin and sizes follow from its photons.
+SurfaceGrid frame_of(const PatchShape& shape, float radius) {
     SurfaceGrid grid{};
-    const double size = glm::length(shape.normal_sum);
-    grid.normal = size > 0 ? vec3(shape.normal_sum / size) : vec3(0, 1, 0);
-    vec3 u = shape.longest_edge - grid.normal * dot(shape.longest_edge, grid.normal);
-    if (!(length(u) > 1e-6f * std::max(shape.longest, 1e-30f)))
-        u = cross(grid.normal, abs(grid.normal.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 0, 1));
-    grid.u_axis = normalize(u);
-    grid.v_axis = cross(grid.normal, grid.u_axis);
-    grid.origin = shape.any_corner;
+    grid.normal = shape.normal;
+    grid.u_axis = shape.u_axis;
+    grid.v_axis = shape.v_axis;
+    grid.origin = shape.anchor;
+    grid.radius = radius;
     return grid;
 }
 
@@ -97,7 +65,8 @@ uint cell_of(PhotonPlace place, const SurfaceGrid& grid) {
 }
 
 /// Writes the records of one map in cell order.
-void fill_grid(PhotonMap& map, uint index, const std::vector<Photon>& photons, const uint* first, const uint* last, uint begin) {
+void fill_grid(PhotonMap& map, uint index, const std::vector<Photon>& photons, const uint* first, const uint* last,
+               uint begin) {
     const SurfaceGrid& grid = map.grids[index];
     const size_t count = size_t(last - first);
     std::vector<PhotonPlace> places(count);
@@ -147,7 +116,7 @@ float automatic_radius(const Scene& scene, uint64_t photons) {
         area += 0.5 * double(length(cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
     }
     const float half_diagonal = 0.5f * length(scene.bounds[1] - scene.bounds[0]);
-    const double wanted = 1.2 * std::sqrt(200 * area / (double(lw_pi) * double(std::max<uint64_t>(photons, 1))));
+    const double wanted = 1.5 * std::sqrt(200 * area / (double(lw_pi) * double(std::max<uint64_t>(photons, 1))));
     return std::min(float(wanted), half_diagonal);
 }
 
@@ -159,20 +128,28 @@ bool needs_directions(const Scene& scene) {
 
 namespace {
 
-/// Starts from automatic_radius() and shrinks until references per photon stay below the bound.
-float bounded_radius(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings) {
-    settings.radius = automatic_radius(scene, photons.records.size());
-    for (int tries = 0; tries < 16; ++tries, settings.radius *= 0.85f) {
-        const Patches patches = group_triangles(scene, patch_radii * settings.radius);
-        if (sample_references(scene, caster, photons.records, patches, settings, 20000) < references_per_photon) break;
+/// The patches for one largest radius, and a radius for each: small patches get a smaller one until references per
+/// photon stay below the bound.
+struct Partition {
+    Partition(const Scene& scene, const Photons& photons, const BakeSettings& settings)
+        : patches(group_triangles(scene, patch_size_in_radii * settings.radius)), shapes(shapes_of(scene, patches)) {
+        float looseness = 1;
+        for (int tries = 0; tries < 16; ++tries, looseness *= 0.75f) {
+            radii = patch_radii(shapes, settings.radius, looseness);
+            if (sample_references({scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg},
+                                  20000) < references_per_photon)
+                break;
+        }
     }
-    return settings.radius;
-}
+    Patches patches;
+    std::vector<PatchShape> shapes;
+    std::vector<float> radii;
+};
 
 }  // namespace
 
-PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings) {
-    if (!(settings.radius > 0)) settings.radius = bounded_radius(scene, caster, photons, settings);
+PhotonMap build_photon_map(const Scene& scene, const Photons& photons, BakeSettings settings) {
+    if (!(settings.radius > 0)) settings.radius = automatic_radius(scene, photons.records.size());
     PhotonMap map;
     map.scene_hash = scene.content_hash;
     map.settings = settings;
@@ -180,16 +157,16 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     map.flux_scale = flux_scale_of(photons.records);
     for (const LightBalance& light : photons.lights) map.emitted.push_back(light.emitted);
 
-    const Patches patches = group_triangles(scene, patch_radii * settings.radius);
-    const References references = find_references(scene, caster, photons.records, patches, settings);
-    const std::vector<uint> kept = keep_lit_patches(references, patches, map);
-    const std::vector<PatchShape> shapes = shapes_of(scene, patches);
+    const Partition partition(scene, photons, settings);
+    const References references = find_references(
+        {scene, photons.records, partition.patches, partition.shapes, partition.radii, settings.neighbour_angle_deg});
+    const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map);
     const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
     const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
 
     map.grids.resize(kept.size());
     parallel_for(kept.size(), [&](size_t m) {
-        map.grids[m] = frame_of(shapes[kept[m]]);
+        map.grids[m] = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
         fit_grid(map.grids[m], photons.records, first(m), last(m));
     });
     uint cells = 0;

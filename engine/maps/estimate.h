@@ -19,9 +19,15 @@ class PhotonEstimator : public SurfaceReader {
     /// `light_weights`: RGB power of each light in its own unit (intensity x dimmer).
     PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_weights,
                     GatherSettings settings)
-        : SurfaceReader(scene), grids(map.grids.data()), cell_starts(map.cell_starts.data()), map_(map),
-          weights_(light_weights), gather_mode(settings.mode), neighbours(settings.neighbours),
-          max_radius(map.settings.radius), inverse_flux_scale(1.0f / map.flux_scale),
+        : SurfaceReader(scene),
+          grids(map.grids.data()),
+          cell_starts(map.cell_starts.data()),
+          map_(map),
+          weights_(light_weights),
+          gather_mode(settings.mode),
+          neighbours(settings.neighbours),
+          max_radius(map.settings.radius),
+          inverse_flux_scale(1.0f / map.flux_scale),
           has_directions(map.has_directions()) {}
 
     PhotonPlace photon_place(uint i) const { return map_.places[i]; }

@@ -4,7 +4,8 @@
 
 namespace lw {
 
-/// RGB9E5, rounded to nearest; negative and NaN become 0, too large is clamped (Vulkan 1.3 specification, 'RGB to shared exponent').
+/// RGB9E5, rounded to nearest; negative and NaN become 0, too large is clamped (Vulkan 1.3 specification, 'RGB to
+/// shared exponent').
 uint pack_rgb9e5(vec3 color);
 
 /// Octahedral map in 16 + 16 bits of a unit vector.

@@ -1,6 +1,7 @@
 #include "maps/patches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 
@@ -14,7 +15,9 @@ uint normal_bin(vec3 n) {
     const vec3 a = abs(n);
     const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
     const float major = std::max(a[axis], 1e-20f);
-    const auto bin = [&](int other) { return uint(clamp(int(std::floor((n[other] / major * 0.5f + 0.5f) * 3)), 0, 2)); };
+    const auto bin = [&](int other) {
+        return uint(clamp(int(std::floor((n[other] / major * 0.5f + 0.5f) * 3)), 0, 2));
+    };
     return (uint(axis) * 2 + (n[axis] < 0 ? 1 : 0)) * 9 + bin((axis + 1) % 3) * 3 + bin((axis + 2) % 3);
 }
 
@@ -59,6 +62,69 @@ Patches group_triangles(const Scene& scene, float patch_size) {
         }
     }
     return patches;
+}
+
+namespace {
+
+/// Calls visit(patch shape, corners, product of edges turned to the side) for both sides of every triangle.
+template <class Visit>
+void for_each_side(const Scene& scene, const Patches& patches, std::vector<PatchShape>& shapes, const Visit& visit) {
+    for (size_t t = 0; t < scene.triangles.size(); ++t) {
+        const uvec3 corner = scene.triangles[t];
+        const std::array<vec3, 3> p{scene.positions[corner.x], scene.positions[corner.y], scene.positions[corner.z]};
+        const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
+        for (uint side = 0; side < 2; ++side)
+            visit(patches.of_side[2 * t + side], uint(t), p, side ? -product : product, shapes);
+    }
+}
+
+struct FrameSum {
+    glm::dvec3 normal{0};
+    vec3 edge{0};
+    float longest = -1;
+};
+
+void set_axes(PatchShape& shape, const FrameSum& sum) {
+    const double size = glm::length(sum.normal);
+    shape.normal = size > 0 ? vec3(sum.normal / size) : vec3(0, 1, 0);
+    vec3 u = sum.edge - shape.normal * dot(sum.edge, shape.normal);
+    if (!(length(u) > 1e-6f * std::max(sum.longest, 1e-30f)))
+        u = cross(shape.normal, std::abs(shape.normal.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 0, 1));
+    shape.u_axis = normalize(u);
+    shape.v_axis = cross(shape.normal, shape.u_axis);
+    shape.low = shape.box_low = vec3(1e30f);
+    shape.high = shape.box_high = vec3(-1e30f);
+}
+
+}  // namespace
+
+std::vector<PatchShape> shapes_of(const Scene& scene, const Patches& patches) {
+    std::vector<PatchShape> shapes(patches.count);
+    std::vector<FrameSum> sums(patches.count);
+    for_each_side(scene, patches, shapes, [&](uint patch, uint t, const std::array<vec3, 3>& p, vec3 product, auto&) {
+        FrameSum& sum = sums[patch];
+        sum.normal += glm::dvec3(product);
+        shapes[patch].triangle = t;
+        ++shapes[patch].triangles;
+        for (size_t e = 0; e < 3; ++e) {
+            const vec3 edge = p[(e + 1) % 3] - p[e];
+            if (length(edge) <= sum.longest) continue;
+            sum.longest = length(edge);
+            sum.edge = edge;
+            shapes[patch].anchor = p[e];
+        }
+    });
+    for (uint patch = 0; patch < patches.count; ++patch) set_axes(shapes[patch], sums[patch]);
+    for_each_side(scene, patches, shapes,
+                  [](uint patch, uint, const std::array<vec3, 3>& p, vec3, std::vector<PatchShape>& all) {
+                      PatchShape& shape = all[patch];
+                      for (const vec3& corner : p) {
+                          const vec3 local = shape.to_local(corner);
+                          shape.low = min(shape.low, local), shape.high = max(shape.high, local);
+                          shape.box_low = min(shape.box_low, corner), shape.box_high = max(shape.box_high, corner);
+                      }
+                  });
+    return shapes;
 }
 
 }  // namespace lw

@@ -13,6 +13,21 @@ struct Patches {
     uint count = 0;
 };
 
+/// Where a patch lies: a box in its own frame, anchored at a corner of one of its triangles.
+struct PatchShape {
+    vec3 anchor{0};
+    vec3 u_axis{1, 0, 0}, v_axis{0, 0, 1}, normal{0, 1, 0};  // orthonormal; normal is the mean over its triangles
+    vec3 low{0}, high{0};                                    // bounds in that frame, relative to the anchor
+    vec3 box_low{0}, box_high{0};                            // bounds in the scene's axes
+    uint triangle = 0;                                       // one of its triangles
+    uint triangles = 0;                                      // how many it has
+
+    vec3 to_local(vec3 p) const { return {dot(p - anchor, u_axis), dot(p - anchor, v_axis), dot(p - anchor, normal)}; }
+};
+
+/// The shapes of all patches.
+std::vector<PatchShape> shapes_of(const Scene& scene, const Patches& patches);
+
 /// Groups triangle sides whose bounding box is smaller than `patch_size` metres by (object, cell of that size, one of
 /// 54 normal bins); degenerate triangles follow their neighbours' bins with the normal +Y.
 Patches group_triangles(const Scene& scene, float patch_size);

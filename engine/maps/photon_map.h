@@ -19,16 +19,16 @@ struct BakeSettings {
 /// Flux is for intensity 1 of the photon's light (lm per cd, per lx or per cd/m2), times flux_scale in the record.
 struct PhotonMap {
     uint64_t scene_hash = 0;
-    BakeSettings settings;                    // with the radius that was used
+    BakeSettings settings;  // with the radius that was used
     uint64_t stored_photons = 0;
-    float flux_scale = 1;                     // record flux = flux * flux_scale, keeps RGB9E5 in range
-    std::vector<uint64_t> emitted;            // photons emitted per light
-    std::vector<uint> triangle_maps;          // 2 per triangle: map of the front side, of the back side, or no_map
-    std::vector<SurfaceGrid> grids;           // per map
-    std::vector<uint> cell_starts;            // cells of all maps + 1
-    std::vector<PhotonPlace> places;          // 8 bytes per reference
-    std::vector<uint> fluxes;                 // RGB9E5 per reference
-    std::vector<uint> directions;             // octahedral direction the photon came from; empty without glossy surfaces
+    float flux_scale = 1;             // record flux = flux * flux_scale, keeps RGB9E5 in range
+    std::vector<uint64_t> emitted;    // photons emitted per light
+    std::vector<uint> triangle_maps;  // 2 per triangle: map of the front side, of the back side, or no_map
+    std::vector<SurfaceGrid> grids;   // per map
+    std::vector<uint> cell_starts;    // cells of all maps + 1
+    std::vector<PhotonPlace> places;  // 8 bytes per reference
+    std::vector<uint> fluxes;         // RGB9E5 per reference
+    std::vector<uint> directions;     // octahedral direction the photon came from; empty without glossy surfaces
 
     bool has_directions() const { return !directions.empty(); }
 };

@@ -1,29 +1,42 @@
-// Which photons each map refers to (paper, section 2.1): the photon's own, and those of triangles within the radius whose
-// normal differs by less than the angle. One Embree point query per photon replaces the paper's neighbour lists: the
-// same references, without lists that grow with the square of the triangles.
+// Which photons each map refers to (paper, section 2.1): the photon's own, and those within the map's radius whose
+// normal differs by less than the angle. One point query per photon over the boxes of the maps replaces the paper's
+// neighbour lists, which grow with the square of the triangles.
 #pragma once
 #include <vector>
 
 #include "maps/patches.h"
 #include "maps/photon_map.h"
 #include "photons/photon.h"
-#include "trace/ray_caster.h"
 
 namespace lw {
 
 /// References sorted by map: those of map m are photons[starts[m]] .. photons[starts[m + 1] - 1].
 struct References {
-    std::vector<uint64_t> starts;  // patches.count + 1
+    std::vector<uint64_t> starts;  // patches + 1
     std::vector<uint> photons;     // indices of photons, ascending within a map
 };
 
-/// A photon on a parallel sheet above or below a triangle does not belong to it: its height over the triangle's plane
-/// may not exceed what the angle between the two surfaces explains, beyond a hundredth of the radius.
-References find_references(const Scene& scene, const RayCaster& caster, const std::vector<Photon>& photons,
-                           const Patches& patches, const BakeSettings& settings);
+/// What a search for references reads; all of it must outlive the search.
+struct ReferenceInput {
+    const Scene& scene;
+    const std::vector<Photon>& photons;
+    const Patches& patches;
+    const std::vector<PatchShape>& shapes;
+    const std::vector<float>& radii;  // search radius of each patch, m
+    float neighbour_angle_deg;
+};
 
-/// References per photon at this radius, from about `samples` photons spread over the whole set.
-double sample_references(const Scene& scene, const RayCaster& caster, const std::vector<Photon>& photons,
-                         const Patches& patches, const BakeSettings& settings, size_t samples);
+/// The radius of each patch: `largest`, but so small that the photons around a small patch do not outnumber those on
+/// it: the overhang (P r + pi r^2) / A of its rectangle stays below 1.3 `looseness`, with a floor of 0.35 `looseness`
+/// `largest`.
+std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float largest, float looseness);
+
+/// A photon belongs to a patch when it lies within the patch's radius of its triangle (of the box around it, when the
+/// patch has several), when its normal is within the angle of the patch's, and when its height over the patch is no
+/// more than what the angle between the two explains: a parallel sheet above or below does not belong.
+References find_references(const ReferenceInput& input);
+
+/// References per photon from about `samples` photons spread over the whole set.
+double sample_references(const ReferenceInput& input, size_t samples);
 
 }  // namespace lw

@@ -34,7 +34,7 @@ Aim::Aim(const std::vector<double>& usefulness) : rows_(side), cells_(side * sid
     std::vector<double> density = blurred(usefulness);
     double mean = 0;
     for (double d : density) mean += d / double(density.size());
-    for (double& d : density) d += mean > 0 ? 0.1 * mean : 1.0;
+    for (double& d : density) d += mean > 0 ? 0.03 * mean : 1.0;
     double total = 0, below = 0;
     for (double d : density) total += d;
     for (size_t r = 0; r < side; ++r) {

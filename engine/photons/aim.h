@@ -13,7 +13,7 @@ class Aim {
     /// Uniform: leaves the numbers as they are.
     Aim() = default;
     /// Cells are chosen in proportion to `usefulness` (side x side, row = first number), blurred over the neighbours,
-    /// with a floor of a tenth of the mean.
+    /// with a floor of 3 % of the mean.
     explicit Aim(const std::vector<double>& usefulness);
 
     /// Moves the numbers u[0], u[1] in [0, 1) to the aimed distribution and returns the weight of the photon.

@@ -9,25 +9,27 @@ namespace lw {
 
 struct Photon {
     vec3 position;
-    vec3 flux;        // lm per unit intensity of its lamp, per RGB
-    vec3 from;        // unit direction it came from
-    uint triangle;    // struck triangle
-    uint origin;      // pack_origin(): lamp, path class, struck side
+    vec3 flux;      // lm per unit intensity of its lamp, per RGB
+    vec3 from;      // unit direction it came from
+    uint triangle;  // struck triangle
+    uint origin;    // pack_origin(): lamp, path class, struck side
 
     uint light() const { return origin & light_mask; }
     uint path() const { return (origin >> path_shift) & 3u; }  // path_direct, path_indirect, path_caustic
     uint side() const { return origin >> 16; }                 // 0: front of the triangle, 1: back
 };
 
-inline uint pack_origin(uint light, uint path, bool back) { return light | path << path_shift | (back ? 1u << 16 : 0u); }
+inline uint pack_origin(uint light, uint path, bool back) {
+    return light | path << path_shift | (back ? 1u << 16 : 0u);
+}
 
 /// The energy balance of one lamp, at unit intensity, luminance-weighted.
 struct LightBalance {
-    uint64_t emitted = 0;   // photons
-    uint64_t stored = 0;    // photons
-    double flux_out = 0;    // lm leaving the lamp
-    double absorbed = 0;    // lm lost in surfaces (what the material does not reflect, or roulette ends)
-    double escaped = 0;     // lm leaving the scene
+    uint64_t emitted = 0;  // photons
+    uint64_t stored = 0;   // photons
+    double flux_out = 0;   // lm leaving the lamp
+    double absorbed = 0;   // lm lost in surfaces (what the material does not reflect, or roulette ends)
+    double escaped = 0;    // lm leaving the scene
 };
 
 struct Photons {

@@ -66,7 +66,8 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
     std::array<float, 5> u = numbers(chunk.light, index);
     share *= aims_[chunk.light].warp(u);
     const Emission photon = emitters_.emit(chunk.light, u);
-    vec3 flux = photon.flux * share, origin = caster_.offset(photon.origin, photon.normal), direction = photon.direction;
+    vec3 flux = photon.flux * share, origin = caster_.offset(photon.origin, photon.normal),
+         direction = photon.direction;
     uint path = path_direct;
     chunk.emitted_flux += luminance(flux);
     for (int depth = 0; depth < longest_path; ++depth) {
@@ -78,10 +79,12 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
         const bool back = dot(s.geometric_normal, direction) > 0;
         if (!surfaces_.is_purely_specular(s))
-            chunk.photons.push_back({s.position, flux, -direction, hit->triangle, pack_origin(chunk.light, path, back)});
+            chunk.photons.push_back(
+                {s.position, flux, -direction, hit->triangle, pack_origin(chunk.light, path, back)});
         const std::optional<Scatter> next = sample_bsdf(surfaces_, s, -direction, rng);
         const vec3 reflected = next ? flux * next->weight : vec3(0);
-        const float before = std::max({flux.x, flux.y, flux.z}), after = std::max({reflected.x, reflected.y, reflected.z});
+        const float before = std::max({flux.x, flux.y, flux.z}),
+                    after = std::max({reflected.x, reflected.y, reflected.z});
         const float survival = before > 0 ? std::min(1.0f, after / before) : 0.0f;
         if (!(rng.next() < survival)) {
             chunk.absorbed += luminance(flux);
@@ -90,8 +93,10 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
         const vec3 kept = reflected / survival;
         chunk.absorbed += luminance(flux) - luminance(kept);
         flux = kept;
-        if (!next->specular) path = path_indirect;
-        else if (path == path_direct && !((s.flags & material_thin) && dot(next->direction, direction) > 0.9999f)) path = path_caustic;
+        if (!next->specular)
+            path = path_indirect;
+        else if (path == path_direct && !((s.flags & material_thin) && dot(next->direction, direction) > 0.9999f))
+            path = path_caustic;
         const vec3 ng = back ? -s.geometric_normal : s.geometric_normal;
         direction = next->direction;
         origin = caster_.offset(s.position, dot(direction, ng) > 0 ? ng : -ng);
@@ -112,11 +117,15 @@ void aim_suns(Shooter& shooter, const Scene& scene) {
     for (uint light = 0; light < scene.lights.size(); ++light) {
         if (scene.lights[light].type != light_directional) continue;
         std::vector<double> useful_per_path(aim_paths, 0);
-        parallel_for(aim_paths, [&](size_t i) {
-            Chunk path{light, i, i + 1, {}, 0, 0, 0};
-            shooter.trace(path, double(aim_paths));
-            for (const Photon& p : path.photons) useful_per_path[i] += p.path() == path_direct ? 0 : luminance(p.flux);
-        }, 1024);
+        parallel_for(
+            aim_paths,
+            [&](size_t i) {
+                Chunk path{light, i, i + 1, {}, 0, 0, 0};
+                shooter.trace(path, double(aim_paths));
+                for (const Photon& p : path.photons)
+                    useful_per_path[i] += p.path() == path_direct ? 0 : luminance(p.flux);
+            },
+            1024);
         std::vector<double> useful(Aim::side * Aim::side, 0);
         for (size_t i = 0; i < aim_paths; ++i) {
             const std::array<float, 5> u = shooter.numbers(light, i);
@@ -135,20 +144,27 @@ std::vector<uint64_t> plan_emission(const Shooter& shooter, const Scene& scene, 
     for (const Chunk& pilot : pilots) {
         yield[pilot.light] += double(pilot.photons.size()) / double(pilot_paths);
         for (const Photon& p : pilot.photons)
-            useful[pilot.light] += luminance(p.flux * scene.lights[pilot.light].intensity) * (p.path() == path_direct ? 0.05 : 1);
+            useful[pilot.light] +=
+                luminance(p.flux * scene.lights[pilot.light].intensity) * (p.path() == path_direct ? 0.05 : 1);
     }
     double sum = 0;
     for (double& flux : useful) sum += flux = std::sqrt(flux);
     const double floor = sum > 0 ? 0.25 * sum / double(count) : 1;
     sum = 0;
-    for (size_t light = 0; light < count; ++light) sum += useful[light] = yield[light] > 0 ? std::max(useful[light], floor) : 0;
-    if (!(sum > 0)) throw Error(scene.path.filename().string() + ": no light reaches a surface that can show it; check where the lamps stand and point");
+    for (size_t light = 0; light < count; ++light)
+        sum += useful[light] = yield[light] > 0 ? std::max(useful[light], floor) : 0;
+    if (!(sum > 0))
+        throw Error(scene.path.filename().string() +
+                    ": no light reaches a surface that can show it; check where the lamps stand and point");
     std::vector<uint64_t> emitted(count, 0);
     for (size_t light = 0; light < count; ++light)
         if (yield[light] > 0)
-            emitted[light] = uint64_t(std::max(1.0, std::round(double(wanted) * useful[light] / sum / std::max(yield[light], 0.02))));
+            emitted[light] = uint64_t(
+                std::max(1.0, std::round(double(wanted) * useful[light] / sum / std::max(yield[light], 0.02))));
     for (uint64_t paths : emitted)
-        if (paths > 0xffffffffull) throw Error(scene.path.filename().string() + ": more than 2^32 photon paths for one lamp; ask for fewer photons");
+        if (paths > 0xffffffffull)
+            throw Error(scene.path.filename().string() +
+                        ": more than 2^32 photon paths for one lamp; ask for fewer photons");
     return emitted;
 }
 

@@ -16,10 +16,10 @@ namespace lw {
 struct Camera {
     std::string name;
     vec3 position{0};
-    mat3 rotation{1};      // columns: right, up, back
-    float yfov = 0.9f;     // radians; of an orthographic camera an equivalent perspective is used
-    float aspect = 0;      // width / height, 0 when the file leaves it to the window
-    float near = 0.05f;    // m
+    mat3 rotation{1};    // columns: right, up, back
+    float yfov = 0.9f;   // radians; of an orthographic camera an equivalent perspective is used
+    float aspect = 0;    // width / height, 0 when the file leaves it to the window
+    float near = 0.05f;  // m
 };
 
 struct Scene {
@@ -33,23 +33,23 @@ struct Scene {
     std::vector<vec4> colors;    // linear RGBA multipliers
     std::vector<vec4> tangents;  // xyz + handedness; only when a normal map exists
 
-    std::vector<uvec3> triangles;            // vertex indices; front face counter-clockwise (mirroring corrected)
-    std::vector<uint> triangle_objects;      // object of each triangle
+    std::vector<uvec3> triangles;        // vertex indices; front face counter-clockwise (mirroring corrected)
+    std::vector<uint> triangle_objects;  // object of each triangle
     std::vector<Object> objects;
-    std::vector<std::string> object_names;   // node name, per object
+    std::vector<std::string> object_names;  // node name, per object
     std::vector<Material> materials;
     std::vector<std::string> material_names;
     std::vector<Texture> textures;
-    std::vector<uint> texels;                // RGBA8 of all textures
+    std::vector<uint> texels;  // RGBA8 of all textures
 
     std::vector<Light> lights;
-    std::vector<std::string> light_names;    // unique; per light
-    std::vector<uint> emitters;              // triangle ids of mesh lights, grouped per light
-    std::vector<Camera> cameras;             // at least one
+    std::vector<std::string> light_names;  // unique; per light
+    std::vector<uint> emitters;            // triangle ids of mesh lights, grouped per light
+    std::vector<Camera> cameras;           // at least one
 
     std::array<vec3, 2> bounds{vec3(0), vec3(0)};  // min, max of positions
-    uint64_t content_hash = 0;               // geometry, materials, lamps' places and shapes; not their powers or cameras
-    std::vector<std::string> warnings;       // each said once: what was ignored or replaced
+    uint64_t content_hash = 0;          // geometry, materials, lamps' places and shapes; not their powers or cameras
+    std::vector<std::string> warnings;  // each said once: what was ignored or replaced
 
     const Material& material_of(uint triangle) const { return materials[objects[triangle_objects[triangle]].material]; }
 };

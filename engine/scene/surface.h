@@ -5,16 +5,28 @@
 namespace lw {
 
 /// Read-only view of a Scene with the functions of shaders/surface.glsl and shaders/bsdf.glsl as members:
-/// surface_at(triangle, barycentrics), eval_brdf(surface, n, to_view, to_light, diffuse_only). The scene must outlive it.
+/// surface_at(triangle, barycentrics), eval_brdf(surface, n, to_view, to_light, diffuse_only). The scene must outlive
+/// it.
 class SurfaceReader {
   public:
     explicit SurfaceReader(const Scene& scene)
-        : positions(scene.positions.data()), normals(scene.normals.data()), uv0(scene.uv0.data()), uv1(scene.uv1.data()),
-          colors(scene.colors.data()), tangents(scene.tangents.data()), triangles(scene.triangles.data()),
-          triangle_objects(scene.triangle_objects.data()), objects(scene.objects.data()),
-          materials(scene.materials.data()), textures(scene.textures.data()), texels(scene.texels.data()),
-          has_uv0(!scene.uv0.empty()), has_uv1(!scene.uv1.empty()), has_colors(!scene.colors.empty()),
-          has_tangents(!scene.tangents.empty()), has_textures(!scene.textures.empty()) {}
+        : positions(scene.positions.data()),
+          normals(scene.normals.data()),
+          uv0(scene.uv0.data()),
+          uv1(scene.uv1.data()),
+          colors(scene.colors.data()),
+          tangents(scene.tangents.data()),
+          triangles(scene.triangles.data()),
+          triangle_objects(scene.triangle_objects.data()),
+          objects(scene.objects.data()),
+          materials(scene.materials.data()),
+          textures(scene.textures.data()),
+          texels(scene.texels.data()),
+          has_uv0(!scene.uv0.empty()),
+          has_uv1(!scene.uv1.empty()),
+          has_colors(!scene.colors.empty()),
+          has_tangents(!scene.tangents.empty()),
+          has_textures(!scene.textures.empty()) {}
 
 #include "shaders/bsdf.glsl"
 #include "shaders/surface.glsl"

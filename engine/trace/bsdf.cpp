@@ -17,8 +17,8 @@ struct Lobes {
     bool entering;      // viewer on the front side
     bool delta_mirror;  // GGX lobe so narrow that it is followed as a mirror
     float nv;
-    vec3 mirror;        // reflectance of the specular lobe at normal `n`
-    vec3 refraction;    // weight of the transmission
+    vec3 mirror;      // reflectance of the specular lobe at normal `n`
+    vec3 refraction;  // weight of the transmission
     float p_diffuse, p_glossy, p_transmit;
 };
 
@@ -130,13 +130,15 @@ std::optional<Scatter> sample_bsdf(const SurfaceReader& reader, const Surface& s
         if (dot(direction, l.ng) <= 0 || dot(direction, l.n) <= 0) return std::nullopt;
         const float pdf = smooth_pdf(s, l, to_view, direction);
         if (!(pdf > 0)) return std::nullopt;
-        return Scatter{direction, reader.eval_brdf(s, l.n, to_view, direction, false) * (dot(l.n, direction) / pdf), pdf, false};
+        return Scatter{direction, reader.eval_brdf(s, l.n, to_view, direction, false) * (dot(l.n, direction) / pdf),
+                       pdf, false};
     }
     const vec3 direction = frame * sample_cosine(u, v);
     if (dot(direction, l.ng) <= 0) return std::nullopt;
     const float pdf = smooth_pdf(s, l, to_view, direction);
     if (!(pdf > 0)) return std::nullopt;
-    return Scatter{direction, reader.eval_brdf(s, l.n, to_view, direction, false) * (dot(l.n, direction) / pdf), pdf, false};
+    return Scatter{direction, reader.eval_brdf(s, l.n, to_view, direction, false) * (dot(l.n, direction) / pdf), pdf,
+                   false};
 }
 
 float bsdf_pdf(const SurfaceReader& reader, const Surface& s, vec3 to_view, vec3 to_light) {

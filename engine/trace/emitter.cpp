@@ -50,10 +50,14 @@ Emitters::Emitters(const Scene& scene) : scene_(scene), surfaces_(scene), area_b
 float Emitters::unit_flux(uint index) const {
     const Light& light = scene_.lights[index];
     switch (light.type) {
-        case light_point: return 4 * lw_pi;
-        case light_spot: return 2 * lw_pi * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
-        case light_directional: return lw_pi * radius_ * radius_;
-        default: return lw_pi * light.area;
+        case light_point:
+            return 4 * lw_pi;
+        case light_spot:
+            return 2 * lw_pi * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
+        case light_directional:
+            return lw_pi * radius_ * radius_;
+        default:
+            return lw_pi * light.area;
     }
 }
 
@@ -62,7 +66,8 @@ Emission Emitters::emit(uint index, const std::array<float, 5>& u) const {
     const vec3 flux(unit_flux(index));
     if (light.type == light_point) return {light.position, vec3(0), direction_of(1 - 2 * u[2], u[3]), flux};
     if (light.type == light_spot)
-        return {light.position, vec3(0), frame_around(light.direction) * direction_of(sample_spot_cosine(light, u[2]), u[3]), flux};
+        return {light.position, vec3(0),
+                frame_around(light.direction) * direction_of(sample_spot_cosine(light, u[2]), u[3]), flux};
     if (light.type == light_directional) {
         const vec2 disc = sample_disc(u[0], u[1]) * radius_;
         const mat3 frame = frame_around(light.direction);

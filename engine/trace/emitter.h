@@ -19,10 +19,10 @@ struct Emission {
 
 /// Light arriving at a point from one sampled place of a lamp, unoccluded.
 struct Incident {
-    vec3 to_light;   // unit
-    vec3 position;   // on the lamp, or far outside the scene for directional light
-    vec3 radiance;   // delta lights: irradiance on a plane facing the light; mesh lights: radiance, per unit intensity
-    float pdf;       // solid angle; 0 for delta lights
+    vec3 to_light;  // unit
+    vec3 position;  // on the lamp, or far outside the scene for directional light
+    vec3 radiance;  // delta lights: irradiance on a plane facing the light; mesh lights: radiance, per unit intensity
+    float pdf;      // solid angle; 0 for delta lights
 };
 
 /// Reads the lamps of a Scene; the Scene must outlive it. Thread-safe.
@@ -31,7 +31,8 @@ class Emitters {
     explicit Emitters(const Scene& scene);
 
     /// Flux of the whole lamp, lm per unit intensity (directional: over the disc around the scene).
-    /// Point: 4 pi; spot: 2 pi ((1 - cos_i) + (cos_i - cos_o) / 3), the integral of the squared KHR falloff; mesh: pi A.
+    /// Point: 4 pi; spot: 2 pi ((1 - cos_i) + (cos_i - cos_o) / 3), the integral of the squared KHR falloff; mesh: pi
+    /// A.
     float unit_flux(uint light) const;
 
     /// Samples emission from five numbers in [0, 1): position (2), direction (2), side of the sheet (1).

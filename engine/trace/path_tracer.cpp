@@ -83,7 +83,9 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, Rng&
     return sum;
 }
 
-vec3 PathTracer::radiance(vec3 origin, vec3 direction, Rng& rng) const { return follow(origin, direction, 0, true, rng); }
+vec3 PathTracer::radiance(vec3 origin, vec3 direction, Rng& rng) const {
+    return follow(origin, direction, 0, true, rng);
+}
 
 vec3 PathTracer::irradiance(vec3 point, vec3 normal, Rng& rng) const {
     Surface white{};

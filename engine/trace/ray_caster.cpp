@@ -46,17 +46,6 @@ bool occluded(RTCScene scene, RTCRay& ray) {
     return ray.tfar < 0;
 }
 
-struct PointVisit {
-    void (*visit)(void*, uint);
-    void* context;
-};
-
-bool on_point_query(RTCPointQueryFunctionArguments* arguments) {
-    const auto* target = static_cast<const PointVisit*>(arguments->userPtr);
-    target->visit(target->context, arguments->primID);
-    return false;  // the radius stays
-}
-
 }  // namespace
 
 RayCaster::RayCaster(const Scene& scene) : scene_(scene), surfaces_(scene) {
@@ -149,16 +138,6 @@ vec3 RayCaster::transmittance(vec3 from, vec3 to) const {
         if (passed >= far) return passed_fraction;
     }
     return vec3(0);
-}
-
-void RayCaster::point_query(vec3 point, float radius, void (*visit)(void*, uint), void* context) const {
-    RTCPointQuery query{};
-    query.x = point.x, query.y = point.y, query.z = point.z;
-    query.radius = radius;
-    RTCPointQueryContext query_context;
-    rtcInitPointQueryContext(&query_context);
-    PointVisit target{visit, context};
-    rtcPointQuery(as_scene(embree_scene_), &query, &query_context, on_point_query, &target);
 }
 
 vec3 closest_point_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {

@@ -1,6 +1,5 @@
-// Nearest hit, visibility and point queries against the triangles of a Scene; the only user of Embree.
+// Nearest hit and visibility against the triangles of a Scene; with box_search the only user of Embree.
 #pragma once
-#include <functional>
 #include <optional>
 
 #include "scene/scene.h"
@@ -29,19 +28,11 @@ class RayCaster {
     /// Fraction of light (per RGB) that passes between two points: 0 when blocked, the tint of thin glass otherwise.
     vec3 transmittance(vec3 from, vec3 to) const;
 
-    /// Calls visit(triangle, squared distance, closest point) for every triangle within `radius` of `point`.
-    template <class Visit>
-    void triangles_near(vec3 point, float radius, Visit&& visit) const {
-        point_query(point, radius, [](void* context, uint triangle) { (*static_cast<Visit*>(context))(triangle); },
-                    &visit);
-    }
-
     /// `point` moved off its surface along `normal` by a few units of float precision of the scene.
     vec3 offset(vec3 point, vec3 normal) const { return point + normal * epsilon_; }
     float epsilon() const { return epsilon_; }
 
   private:
-    void point_query(vec3 point, float radius, void (*visit)(void*, uint), void* context) const;
     std::optional<Hit> nearest_triangle(vec3 origin, vec3 direction, float max_distance) const;
     bool is_hole(const Hit& hit) const;
 
@@ -50,7 +41,7 @@ class RayCaster {
     void* device_ = nullptr;
     void* embree_scene_ = nullptr;
     float epsilon_ = 0;
-    bool has_holes_ = false;       // alpha masks or blends
+    bool has_holes_ = false;  // alpha masks or blends
     bool has_thin_glass_ = false;
 };
 

@@ -57,7 +57,9 @@ void write_first_hits(const std::vector<FirstHit>& first, const Camera& camera, 
     for (int axis = 0; axis < 3; ++axis) {
         auto& normal = image.add(std::string("normal.") + "XYZ"[axis]);
         for (size_t i = 0; i < first.size(); ++i)
-            if (first[i].hit) normal[i] = first[i].surface.normal[axis] * (dot(first[i].surface.normal, first[i].normal) < 0 ? -1.0f : 1.0f);
+            if (first[i].hit)
+                normal[i] =
+                    first[i].surface.normal[axis] * (dot(first[i].surface.normal, first[i].normal) < 0 ? -1.0f : 1.0f);
     }
 }
 
@@ -82,28 +84,33 @@ Reference render_reference(const Scene& scene, const RayCaster& caster, const Ca
     const size_t count = size_t(settings.width) * size_t(settings.height);
     std::vector<PixelSum> pixels(count);
     std::vector<FirstHit> first(count);
-    parallel_for(count, [&](size_t i) {
-        const auto x = float(i % size_t(settings.width)) + 0.5f, y = float(i / size_t(settings.width)) + 0.5f;
-        first[i].direction = camera_direction(camera, x, y, settings.width, settings.height);
-        first[i].hit = caster.nearest(camera.position, first[i].direction);
-        if (!first[i].hit) return;
-        first[i].surface = surfaces.surface_at(first[i].hit->triangle, first[i].hit->barycentrics);
-        const vec3 ng = first[i].surface.geometric_normal;
-        first[i].normal = dot(ng, first[i].direction) > 0 ? -ng : ng;
-    }, 64);
+    parallel_for(
+        count,
+        [&](size_t i) {
+            const auto x = float(i % size_t(settings.width)) + 0.5f, y = float(i / size_t(settings.width)) + 0.5f;
+            first[i].direction = camera_direction(camera, x, y, settings.width, settings.height);
+            first[i].hit = caster.nearest(camera.position, first[i].direction);
+            if (!first[i].hit) return;
+            first[i].surface = surfaces.surface_at(first[i].hit->triangle, first[i].hit->barycentrics);
+            const vec3 ng = first[i].surface.geometric_normal;
+            first[i].normal = dot(ng, first[i].direction) > 0 ? -ng : ng;
+        },
+        64);
 
     const auto start = std::chrono::steady_clock::now();
     Progress progress("reference", settings.samples * count);
     Reference result;
     while (result.samples < settings.samples) {
-        const uint64_t pass = std::min<uint64_t>(settings.samples - result.samples, std::max<uint64_t>(1, std::min<uint64_t>(result.samples, 16)));
+        const uint64_t pass = std::min<uint64_t>(settings.samples - result.samples,
+                                                 std::max<uint64_t>(1, std::min<uint64_t>(result.samples, 16)));
         parallel_for(size_t(settings.height), [&](size_t row) {
             for (size_t i = row * size_t(settings.width); i < (row + 1) * size_t(settings.width); ++i)
                 for (uint64_t n = result.samples; n < result.samples + pass; ++n) {
                     Rng rng(settings.seed, i, n);
                     const vec3 radiance = tracer.radiance(camera.position, first[i].direction, rng);
                     double lux = 0;
-                    if (settings.illuminance && first[i].hit) lux = luminance(tracer.irradiance(first[i].surface.position, first[i].normal, rng));
+                    if (settings.illuminance && first[i].hit)
+                        lux = luminance(tracer.irradiance(first[i].surface.position, first[i].normal, rng));
                     pixels[i].add({double(radiance.x), double(radiance.y), double(radiance.z), lux}, n + 1);
                 }
             progress.step(pass * uint64_t(settings.width));

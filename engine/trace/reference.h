@@ -18,7 +18,8 @@ struct ReferenceSettings {
 };
 
 struct Reference {
-    Image image;  // R G B, error.R error.G error.B (standard errors), depth, normal.XYZ, triangle, illuminance, error.illuminance
+    Image image;  // R G B, error.R error.G error.B (standard errors), depth, normal.XYZ, triangle, illuminance,
+                  // error.illuminance
     uint64_t samples = 0;
     double relative_error = 0;
 };

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fstream>
 
-
 #include "base/error.h"
 #include "base/random.h"
 #include "maps/build.h"
@@ -20,15 +19,19 @@ namespace {
 
 class MapFile : public testing::Test {
   protected:
-    MapFile() : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/cube.gltf")), path(std::filesystem::temp_directory_path() / ("lw_map_" + std::to_string(getpid()) + ".pmap")) {
+    MapFile()
+        : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/cube.gltf")),
+          path(std::filesystem::temp_directory_path() / ("lw_map_" + std::to_string(getpid()) + ".pmap")) {
         const RayCaster caster(scene);
-        map = build_photon_map(scene, caster, shoot_photons(scene, caster, {500, 1}), {500, 0, 60, 1});
+        map = build_photon_map(scene, shoot_photons(scene, caster, {500, 1}), {500, 0, 60, 1});
         save_photon_map(path, map);
         std::ifstream in(path, std::ios::binary);
         bytes.assign(std::istreambuf_iterator<char>(in), {});
     }
     ~MapFile() override { std::filesystem::remove(path); }
-    void write(const std::string& content) { std::ofstream(path, std::ios::binary).write(content.data(), std::streamsize(content.size())); }
+    void write(const std::string& content) {
+        std::ofstream(path, std::ios::binary).write(content.data(), std::streamsize(content.size()));
+    }
 
     Scene scene;
     std::filesystem::path path;

@@ -54,6 +54,7 @@ PhotonMap even_photons() {
     grid.normal = vec3(0, 0, 1);
     grid.columns = grid.rows = 20;
     grid.quantum = vec3(0.001f);
+    grid.radius = 0.3f;
     map.grids = {grid};
     for (uint cell = 0; cell < 400; ++cell) {
         map.cell_starts.push_back(uint(map.places.size()));

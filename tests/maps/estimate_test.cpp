@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <cmath>
+#include <cstring>
 
 #include "base/parallel.h"
 #include "maps/build.h"
@@ -22,8 +22,11 @@ std::string file_in_data(const std::string& name) { return std::string(LUMENWALK
 
 struct Baked {
     explicit Baked(const std::string& name, uint64_t count = 200000)
-        : scene(load_gltf(file_in_data(name))), caster(scene), photons(shoot_photons(scene, caster, {count, 1})),
-          map(build_photon_map(scene, caster, photons, {count, 0, 60, 1})), weights(light_weights(scene, {})) {}
+        : scene(load_gltf(file_in_data(name))),
+          caster(scene),
+          photons(shoot_photons(scene, caster, {count, 1})),
+          map(build_photon_map(scene, photons, {count, 0, 60, 1})),
+          weights(light_weights(scene, {})) {}
     Scene scene;
     RayCaster caster;
     Photons photons;
@@ -32,8 +35,11 @@ struct Baked {
 };
 
 bool same_bytes(const PhotonMap& a, const PhotonMap& b) {
-    const auto same = [](const auto& x, const auto& y) { return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0; };
-    return same(a.places, b.places) && same(a.fluxes, b.fluxes) && same(a.directions, b.directions) && same(a.grids, b.grids) && same(a.cell_starts, b.cell_starts) && same(a.triangle_maps, b.triangle_maps);
+    const auto same = [](const auto& x, const auto& y) {
+        return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0;
+    };
+    return same(a.places, b.places) && same(a.fluxes, b.fluxes) && same(a.directions, b.directions) &&
+           same(a.grids, b.grids) && same(a.cell_starts, b.cell_starts) && same(a.triangle_maps, b.triangle_maps);
 }
 
 TEST(Bake, GivesTheSameBytesAtOneAndTwoThreads) {
@@ -58,7 +64,8 @@ TEST(Photons, StoredFluxOfAClosedBoxIsEmittedOverOneMinusAlbedo) {
     for (const Photon& p : cube.photons.records) landed += double(p.flux.y);
     EXPECT_NEAR(landed / (4 * M_PI), 1 / (1 - 0.5), 0.02);
     EXPECT_NEAR(cube.photons.lights[0].flux_out, 4 * M_PI, 1e-3);
-    EXPECT_NEAR(cube.photons.lights[0].absorbed + cube.photons.lights[0].escaped, cube.photons.lights[0].flux_out, 1e-6);
+    EXPECT_NEAR(cube.photons.lights[0].absorbed + cube.photons.lights[0].escaped, cube.photons.lights[0].flux_out,
+                1e-6);
     EXPECT_NEAR(double(cube.photons.records.size()), 200000, 4000);
 }
 
@@ -68,19 +75,23 @@ Gathered brute_force(const Baked& baked, uint map, vec3 position, uint k) {
     const vec3 offset = position - grid.origin;
     const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
     std::vector<std::pair<float, uint>> near;
-    const uint begin = baked.map.cell_starts[grid.first_cell], end = baked.map.cell_starts[grid.first_cell + grid.columns * grid.rows];
+    const uint begin = baked.map.cell_starts[grid.first_cell],
+               end = baked.map.cell_starts[grid.first_cell + grid.columns * grid.rows];
     for (uint i = begin; i < end; ++i) {
         const vec3 d = place_in_grid(baked.map.places[i], grid) - local;
         const float excess = std::max(std::abs(d.z) - 0.01f * baked.map.settings.radius, 0.0f);
-        if (dot(d, d) < baked.map.settings.radius * baked.map.settings.radius && excess * excess <= 0.75f * dot(d, d)) near.emplace_back(dot(d, d), i);
+        if (dot(d, d) < grid.radius * grid.radius && excess * excess <= 0.75f * dot(d, d))
+            near.emplace_back(dot(d, d), i);
     }
     std::sort(near.begin(), near.end());
     const bool full = near.size() >= k;
     const size_t used = full ? k - 1 : near.size();
-    const float r2 = full ? near[k - 1].first : baked.map.settings.radius * baked.map.settings.radius;
+    const float r2 = full ? near[k - 1].first : grid.radius * grid.radius;
     Gathered sum{};
     for (size_t i = 0; i < used; ++i)
-        sum.irradiance += unpack_rgb9e5(baked.map.fluxes[near[i].second]) * baked.weights[light_of(baked.map.places[near[i].second])] / (baked.map.flux_scale * lw_pi * r2);
+        sum.irradiance += unpack_rgb9e5(baked.map.fluxes[near[i].second]) *
+                          baked.weights[light_of(baked.map.places[near[i].second])] /
+                          (baked.map.flux_scale * lw_pi * r2);
     sum.radius = std::sqrt(r2);
     return sum;
 }
@@ -94,7 +105,8 @@ TEST(Estimate, ExactModeEqualsBruteForce) {
         const uint map = baked.map.triangle_maps[2 * p.triangle + p.side()];
         const Surface s = estimator.surface_at(p.triangle, {0.31f, 0.27f});
         const float side = p.side() ? -1.0f : 1.0f;
-        const Gathered got = estimator.gather_photons(map, s, s.geometric_normal * side, s.normal * side, s.normal * side);
+        const Gathered got =
+            estimator.gather_photons(map, s, s.geometric_normal * side, s.normal * side, s.normal * side);
         const Gathered expected = brute_force(baked, map, s.position, 50);
         EXPECT_NEAR(got.radius, expected.radius, 1e-5f * expected.radius);
         EXPECT_NEAR(got.irradiance.y, expected.irradiance.y, 1e-4f * expected.irradiance.y + 1e-6f);

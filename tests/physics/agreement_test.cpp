@@ -18,8 +18,9 @@ namespace {
 
 struct Baked {
     Baked(const std::string& name, uint64_t count)
-        : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/" + name)), caster(scene),
-          map(build_photon_map(scene, caster, shoot_photons(scene, caster, {count, 1}), {count, 0, 60, 1})) {}
+        : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/" + name)),
+          caster(scene),
+          map(build_photon_map(scene, shoot_photons(scene, caster, {count, 1}), {count, 0, 60, 1})) {}
     Scene scene;
     RayCaster caster;
     PhotonMap map;
@@ -48,12 +49,15 @@ void expect_same(const Baked& baked, uint mode, uint width, uint height) {
         if (seen[i].triangle == ~0u) continue;
         const Surface s = estimator.surface_at(seen[i].triangle, seen[i].barycentrics);
         if (s.light >= 0) continue;
-        const Gathered expected = estimator.estimate(seen[i].triangle, seen[i].barycentrics, normalize(camera.position - s.position));
+        const Gathered expected =
+            estimator.estimate(seen[i].triangle, seen[i].barycentrics, normalize(camera.position - s.position));
         const double e = dot(expected.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
         ++compared;
         // A photon exactly at the kernel's rim may fall on either side in float arithmetic of another order.
-        if (std::abs(double(lux[i]) - e) > 1e-4 * e + 1e-3) ++different;
-        else if (std::abs(double(green[i] - expected.radiance.y)) > 1e-3 * double(expected.radiance.y) + 1e-3) ++different;
+        if (std::abs(double(lux[i]) - e) > 1e-4 * e + 1e-3)
+            ++different;
+        else if (std::abs(double(green[i] - expected.radiance.y)) > 1e-3 * double(expected.radiance.y) + 1e-3)
+            ++different;
     }
     EXPECT_GT(compared, seen.size() / 2);
     EXPECT_LE(double(different), 0.005 * double(compared)) << "of " << compared << " pixels, mode " << mode;
@@ -83,7 +87,9 @@ bool is_interior(const Image& image, int x, int y, int reach) {
             const int px = x + dx, py = y + dy;
             if (px < 0 || py < 0 || px >= image.width || py >= image.height) return false;
             const size_t i = size_t(py * image.width + px);
-            if (std::abs(nx[i] - nx[centre]) + std::abs(nz[i] - nz[centre]) > 0.01f || std::abs(depth[i] - depth[centre]) > 0.5f) return false;
+            if (std::abs(nx[i] - nx[centre]) + std::abs(nz[i] - nz[centre]) > 0.01f ||
+                std::abs(depth[i] - depth[centre]) > 0.5f)
+                return false;
         }
     return depth[centre] > 0;
 }
@@ -98,7 +104,8 @@ TEST(Agreement, MapOfTheCornellBoxHasTheMeanOfThePathTracer) {
     ReferenceSettings settings;
     settings.width = settings.height = 96;
     settings.samples = 64;
-    const Image truth = render_reference(baked.scene, baked.caster, camera, light_weights(baked.scene, {}), settings).image;
+    const Image truth =
+        render_reference(baked.scene, baked.caster, camera, light_weights(baked.scene, {}), settings).image;
     double map_sum = 0, truth_sum = 0;
     for (int y = 0; y < 96; ++y)
         for (int x = 0; x < 96; ++x)
@@ -120,7 +127,8 @@ TEST(Agreement, DoubledLampDoublesThePicture) {
     resident.set_light_factors(std::vector<float>{2});
     const Image twice = renderer.render(baked.scene.cameras[0], {}).image;
     for (size_t i = 0; i < once.pixel_count(); ++i)
-        EXPECT_NEAR(twice.find("R")->values[i], 2 * once.find("R")->values[i], 1e-4f * twice.find("R")->values[i] + 1e-5f);
+        EXPECT_NEAR(twice.find("R")->values[i], 2 * once.find("R")->values[i],
+                    1e-4f * twice.find("R")->values[i] + 1e-5f);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ double chi_square(const SurfaceReader& reader, const Surface& s, vec3 view, int&
             const double z = (r + 0.5) / (rows * fine), phi = ((c + 0.5) / (columns * fine) - 0.5) * 2 * M_PI;
             const double sine = std::sqrt(1 - z * z);
             const vec3 to_light(float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(z));
-            expected[size_t((r / fine) * columns + c / fine)] += double(bsdf_pdf(reader, s, view, to_light)) * 2 * M_PI / (rows * fine * columns * fine) * samples;
+            expected[size_t((r / fine) * columns + c / fine)] +=
+                double(bsdf_pdf(reader, s, view, to_light)) * 2 * M_PI / (rows * fine * columns * fine) * samples;
         }
     double sum = 0;
     degrees = -1;
@@ -60,7 +61,8 @@ TEST(Sampling, DirectionsOfTheBsdfFollowTheirPdf) {
     Scene empty;
     const SurfaceReader reader(empty);
     const vec3 view = normalize(vec3(0.5f, 0.2f, 0.7f));
-    for (const Surface& s : {material(0, 1, 0, vec3(0.5f)), material(1, 0.5f, 1, vec3(0.8f)), material(0, 0.6f, 1, vec3(0.3f)), material(0.5f, 0.8f, 1, vec3(0.6f))}) {
+    for (const Surface& s : {material(0, 1, 0, vec3(0.5f)), material(1, 0.5f, 1, vec3(0.8f)),
+                             material(0, 0.6f, 1, vec3(0.3f)), material(0.5f, 0.8f, 1, vec3(0.6f))}) {
         int degrees = 0;
         const double chi2 = chi_square(reader, s, view, degrees);
         const double limit = degrees + 5 * std::sqrt(2.0 * degrees);
@@ -73,7 +75,8 @@ TEST(Sampling, WeightsOfTheBsdfIntegrateItsAlbedo) {
     Scene empty;
     const SurfaceReader reader(empty);
     const vec3 view = normalize(vec3(0.6f, 0, 0.8f));
-    for (const Surface& s : {material(0, 1, 0, vec3(0.5f)), material(1, 0.4f, 1, vec3(1)), material(0, 0.5f, 1, vec3(0.7f))}) {
+    for (const Surface& s :
+         {material(0, 1, 0, vec3(0.5f)), material(1, 0.4f, 1, vec3(1)), material(0, 0.5f, 1, vec3(0.7f))}) {
         double sampled = 0, integrated = 0;
         constexpr int n = 200000, side = 400;
         Rng rng(3, 1, 0);
@@ -150,7 +153,8 @@ TEST(PathTracer, FurnaceShowsTheSameRadianceEverywhere) {
     constexpr int n = 20000;
     for (int i = 0; i < n; ++i) {
         Rng rng(1, 2, uint64_t(i));
-        sum += double(tracer.radiance(scene.cameras[0].position, direction_of(1 - 2 * rng.next(), rng.next()), rng).y) / n;
+        sum +=
+            double(tracer.radiance(scene.cameras[0].position, direction_of(1 - 2 * rng.next(), rng.next()), rng).y) / n;
     }
     EXPECT_NEAR(sum, 2.0, 0.02);  // L = Le / (1 - rho)
 }
