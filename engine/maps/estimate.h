@@ -8,7 +8,7 @@ namespace lw {
 /// How photons are turned into radiance; the same settings drive the gather shader.
 struct GatherSettings {
     uint mode = 1;          // 0: exact k nearest neighbours, 1: smooth (bandwidth from cell counts, Epanechnikov)
-    uint neighbours = 200;  // photons per estimate
+    uint neighbours = 500;  // photons per estimate
 };
 
 /// Photon estimate at surface points; read-only view, scene and map must outlive it.
