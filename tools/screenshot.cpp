@@ -17,7 +17,7 @@ namespace {
 struct Options {
     std::string scene, map, output, camera, size, gather = "smooth", device;
     std::vector<std::string> powers;
-    unsigned neighbours = 200, samples = 1, frames = 3;
+    unsigned neighbours = lw::GatherSettings{}.neighbours, samples = 1, frames = 3;
     std::optional<float> exposure;
     bool list_cameras = false, list_lights = false, list_devices = false, validation = false;
     bool lists() const { return list_cameras || list_lights || list_devices; }
