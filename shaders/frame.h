@@ -2,6 +2,7 @@
 // for GLSL, the arrays themselves. Set 0 is the scene and its photon map (gather/resident), set 1 the picture.
 #ifndef LW_FRAME_H
 #define LW_FRAME_H
+#include "bvh.h"
 #include "photon_map.h"
 #include "scene.h"
 #ifdef __cplusplus
@@ -27,11 +28,15 @@ LW_CONST uint binding_cell_starts = 15u;
 LW_CONST uint binding_places = 16u;
 LW_CONST uint binding_fluxes = 17u;
 LW_CONST uint binding_directions = 18u;
+LW_CONST uint binding_lights = 19u;
+LW_CONST uint binding_bvh_nodes = 20u;
+LW_CONST uint binding_bvh_triangles = 21u;
+LW_CONST uint scene_binding_count = 22u;
 
 // Photon records larger than maxStorageBufferRange are split into chunks of 2^shift records, one descriptor each.
-// 28 storage buffers here and 3 in set 1 stay within lavapipe's 32 per stage: 2^24 x 6 references with its 128 MiB.
-LW_CONST uint most_place_chunks = 6u;
-LW_CONST uint most_flux_chunks = 3u;
+// 27 storage buffers here and 3 in set 1 stay within lavapipe's 32 per stage: 2^24 x 4 references with its 128 MiB.
+LW_CONST uint most_place_chunks = 4u;
+LW_CONST uint most_flux_chunks = 2u;
 
 LW_CONST uint binding_visibility = 0u;
 LW_CONST uint binding_radiance = 1u;
@@ -52,7 +57,8 @@ LW_CONST uint constant_flux_chunks = 10u;
 LW_CONST uint constant_flux_shift = 11u;
 LW_CONST uint constant_gather_mode = 12u;
 LW_CONST uint constant_heap_size = 13u;
-LW_CONST uint constant_count = 14u;
+LW_CONST uint constant_has_direct = 14u;
+LW_CONST uint constant_count = 15u;
 
 LW_CONST uint no_triangle = 0xffffffffu;
 
@@ -79,6 +85,8 @@ struct Frame {
     uint triangle_limit;  // number of triangles
     uint sample_index;    // 0 overwrites the picture, others add to it
     float sample_weight;  // 1 / samples
+    float ray_epsilon;    // m, what shadow rays start above their surface
+    float scene_size;     // m, beyond which nothing stands
 };
 
 /// Push constants of the tone mapping pass.
@@ -90,7 +98,7 @@ struct Screen {
 
 #ifdef __cplusplus
 static_assert(sizeof(LightState) == 16 && sizeof(Screen) == 12);
-static_assert(sizeof(Frame) == 100 && offsetof(Frame, sample_weight) == 96);
+static_assert(sizeof(Frame) == 108 && offsetof(Frame, scene_size) == 104);
 }  // namespace lw
 #else
 
@@ -108,6 +116,7 @@ layout(constant_id = constant_flux_chunks) const uint flux_chunks = 1u;
 layout(constant_id = constant_flux_shift) const uint flux_shift = 25u;
 layout(constant_id = constant_gather_mode) const uint gather_mode = 1u;
 layout(constant_id = constant_heap_size) const uint heap_size = 256u;
+layout(constant_id = constant_has_direct) const bool has_direct = true;
 
 #define LW_ARRAY(TYPE, NAME) \
     layout(set = 0, binding = binding_##NAME, scalar) readonly buffer NAME##_buffer { TYPE NAME[]; }

@@ -1,4 +1,5 @@
-// Light at what each pixel sees: the photons of the map on the visible side of the triangle, through the BRDF,
+// Light at what each pixel sees: the photons of the map on the visible side of the triangle, through the BRDF, the direct
+// light of punctual lamps by shadow rays,
 // and the surface's own glow. Writes radiance (cd/m2) and illuminance (lux), shading normal and depth (m along -Z).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,6 +14,9 @@ LW_ARRAY(LightState, light_states);
 LW_ARRAY(uint, triangle_maps);
 LW_ARRAY(SurfaceGrid, grids);
 LW_ARRAY(uint, cell_starts);
+LW_ARRAY(Light, lights);
+LW_ARRAY(BvhNode, bvh_nodes);
+LW_ARRAY(uint, bvh_triangles);
 layout(set = 0, binding = binding_places, scalar) readonly buffer Places { PhotonPlace records[]; }
 places[most_place_chunks];
 layout(set = 0, binding = binding_fluxes, scalar) readonly buffer Fluxes { uint records[]; }
@@ -27,6 +31,10 @@ layout(set = 1, binding = binding_normal_depth, scalar) writeonly buffer NormalD
 #define max_radius frame.max_radius
 #define neighbours frame.neighbours
 #define inverse_flux_scale frame.inverse_flux_scale
+#define ray_epsilon frame.ray_epsilon
+#define scene_size frame.scene_size
+#define light_count uint(lights.length())
+#define bvh_node_count uint(bvh_nodes.length())
 
 // Constant indices only: the arrays of buffers need no dynamic indexing, and one chunk costs no branch.
 PhotonPlace photon_place(uint i) {
@@ -35,8 +43,6 @@ PhotonPlace photon_place(uint i) {
     if (place_chunks > 1u && chunk == 1u) return places[1].records[i];
     if (place_chunks > 2u && chunk == 2u) return places[2].records[i];
     if (place_chunks > 3u && chunk == 3u) return places[3].records[i];
-    if (place_chunks > 4u && chunk == 4u) return places[4].records[i];
-    if (place_chunks > 5u && chunk == 5u) return places[5].records[i];
     return places[0].records[i];
 }
 
@@ -44,7 +50,6 @@ uint photon_flux(uint i) {
     uint chunk = flux_chunks == 1u ? 0u : i >> flux_shift;
     if (flux_chunks > 1u) i &= (1u << flux_shift) - 1u;
     if (flux_chunks > 1u && chunk == 1u) return fluxes[1].records[i];
-    if (flux_chunks > 2u && chunk == 2u) return fluxes[2].records[i];
     return fluxes[0].records[i];
 }
 
@@ -52,7 +57,6 @@ uint photon_direction(uint i) {
     uint chunk = flux_chunks == 1u ? 0u : i >> flux_shift;
     if (flux_chunks > 1u) i &= (1u << flux_shift) - 1u;
     if (flux_chunks > 1u && chunk == 1u) return directions[1].records[i];
-    if (flux_chunks > 2u && chunk == 2u) return directions[2].records[i];
     return directions[0].records[i];
 }
 
@@ -61,6 +65,7 @@ vec3 light_weight(uint light) { return light_states[light].weight; }
 #include "surface.glsl"
 #include "bsdf.glsl"
 #include "gather.glsl"
+#include "direct.glsl"
 
 /// What the surface shows without photons: its glow, or its colour when unlit.
 vec3 own_radiance(Surface s, bool front) {
@@ -91,6 +96,7 @@ void main() {
     vec3 n_shading = front ? s.normal : -s.normal;
     uint map = triangle_maps[2u * visible.x + (front ? 0u : 1u)];
     Gathered light = gather_photons(map, s, n_geometric, n_shading, normalize(to_camera));
+    if (has_direct) add_direct(s, n_geometric, n_shading, normalize(to_camera), light);
     float illuminance = dot(light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
     store(pixel, vec4(light.radiance + own_radiance(s, front), illuminance),
           vec4(n_shading, dot(to_camera, frame.camera_back)));

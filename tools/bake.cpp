@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-    std::string scene, output, radius = "auto";
+    std::string scene, output, radius = "auto", direct = "exact";
     uint64_t photons = 1'000'000, seed = 1;
     float neighbour_angle_deg = 60;
     unsigned threads = 0;
@@ -73,14 +73,16 @@ void print_map(const lw::PhotonMap& map, size_t triangles) {
 
 void bake(const Options& options) {
     const lw::ThreadLimit limit(options.threads);
-    lw::BakeSettings settings{options.photons, parse_radius(options.radius), options.neighbour_angle_deg, options.seed};
+    lw::BakeSettings settings{options.photons, parse_radius(options.radius), options.neighbour_angle_deg, options.seed,
+                              options.direct == "photons"};
     PhaseClock clock;
     const lw::Scene scene = lw::load_gltf(options.scene);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     clock.finish("load");
     const lw::RayCaster caster(scene);
     clock.finish("hierarchy");
-    const lw::Photons photons = lw::shoot_photons(scene, caster, {settings.photons, settings.seed});
+    const lw::Photons photons =
+        lw::shoot_photons(scene, caster, {settings.photons, settings.seed, settings.direct_in_photons});
     clock.finish("trace");
     const lw::PhotonMap map = lw::build_photon_map(scene, photons, settings);
     clock.finish("maps");
@@ -108,6 +110,11 @@ int main(int argc, char** argv) {
                    "largest angle in degrees between the normals of a photon and a map")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 89.0));
+    app.add_option("--direct", options.direct,
+                   "direct light of point, spot and directional lamps: exact (shadow rays at render time) or photons "
+                   "(the paper)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"exact", "photons"}));
     app.add_option("--seed", options.seed, "seed of the random numbers")->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads (0: all cores)")
         ->capture_default_str()

@@ -11,6 +11,7 @@
 #include "image/png.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
+#include "trace/build_bvh.h"
 
 namespace {
 
@@ -110,7 +111,8 @@ void take_screenshot(const Options& o) {
     const lw::PhotonMap map =
         lw::load_photon_map(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map), scene);
     const lw::Device device({o.device, o.validation});
-    lw::Resident resident(device, scene, map);
+    const lw::Bvh bvh = map.settings.direct_in_photons ? lw::Bvh{} : lw::build_bvh(scene);
+    lw::Resident resident(device, scene, map, bvh);
     resident.set_light_factors(factors);
     const vk::Extent2D size = picture_size(o, camera);
     lw::Renderer renderer(device, resident, size.width, size.height);

@@ -31,7 +31,7 @@ struct Header {
     float radius;
     float neighbour_angle_deg;
     float flux_scale;
-    uint32_t reserved;
+    uint32_t direct_in_photons;
     std::array<uint64_t, section_count> bytes;
 };
 static_assert(sizeof(Header) == 128);
@@ -158,7 +158,7 @@ void save_photon_map(const std::filesystem::path& path, const PhotonMap& map) {
                   map.settings.radius,
                   map.settings.neighbour_angle_deg,
                   map.flux_scale,
-                  0,
+                  map.settings.direct_in_photons,
                   {}};
     size_t s = 0;
     for_each_section(map, [&](const auto& section) { header.bytes[s++] = byte_size(section); });
@@ -194,7 +194,8 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
 
     PhotonMap map;
     map.scene_hash = header.scene_hash;
-    map.settings = {header.photons_wanted, header.radius, header.neighbour_angle_deg, header.seed};
+    map.settings = {header.photons_wanted, header.radius, header.neighbour_angle_deg, header.seed,
+                    header.direct_in_photons != 0};
     map.stored_photons = header.photons_stored;
     map.flux_scale = header.flux_scale;
     size_t s = 0;

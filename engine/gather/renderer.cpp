@@ -91,6 +91,8 @@ PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& set
         frame.neighbours = std::max(1u, settings.gather.neighbours);
         frame.max_radius = resident_->max_radius();
         frame.inverse_flux_scale = resident_->inverse_flux_scale();
+        frame.ray_epsilon = resident_->ray_epsilon();
+        frame.scene_size = resident_->scene_size();
         frame.triangle_limit = resident_->triangle_count();
         submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
             using Stage = vk::PipelineStageFlagBits2;

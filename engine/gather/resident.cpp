@@ -18,7 +18,7 @@ std::vector<Binding> scene_bindings() {
     const vk::ShaderStageFlags compute = vk::ShaderStageFlagBits::eCompute;
     const auto all = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | compute;
     std::vector<Binding> bindings;
-    for (uint i = 0; i <= binding_directions; ++i)
+    for (uint i = 0; i < scene_binding_count; ++i)
         bindings.push_back({i, vk::DescriptorType::eStorageBuffer, descriptor_count(i),
                             i <= binding_texels ? vk::ShaderStageFlags(all) : compute});
     return bindings;
@@ -49,7 +49,7 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
 }
 
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map) {
-    const uint32_t needed = binding_places + most_place_chunks + 2 * most_flux_chunks + 3;
+    const uint32_t needed = scene_binding_count - 3 + most_place_chunks + 2 * most_flux_chunks + 3;
     const uint32_t has = device.limits().maxPerStageDescriptorStorageBuffers;
     if (has < needed)
         throw Error(device.name() + ": binds " + std::to_string(has) + " storage buffers, " + std::to_string(needed) +
@@ -62,12 +62,15 @@ void check_device(const Device& device, const Scene& scene, const PhotonMap& map
 
 }  // namespace
 
-Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& map, ResidentSettings settings)
+Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh,
+                   ResidentSettings settings)
     : device_(&device),
       buffer_range_(settings.buffer_range ? settings.buffer_range : device.limits().maxStorageBufferRange),
       triangle_count_(uint(scene.triangles.size())),
       max_radius_(map.settings.radius),
       inverse_flux_scale_(1.0f / map.flux_scale),
+      ray_epsilon_(scene.ray_epsilon()),
+      scene_size_(scene.size()),
       descriptors_(device, scene_bindings()) {
     if (scene.triangles.size() > 0xffffffffu / 3u)
         throw Error(scene.path.string() + ": more than " + std::to_string(0xffffffffu / 3u) + " triangles");
@@ -75,8 +78,10 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
         throw Error(scene.path.string() + ": the photon map belongs to another scene");
     check_device(device, scene, map);
     choose_constants(scene, map);
+    constants_[constant_has_direct] = !bvh.nodes.empty() && !map.settings.direct_in_photons;
     upload_scene(scene);
     upload_map(map);
+    upload_direct(scene, bvh);
     for (const Light& light : scene.lights) intensities_.push_back(light.intensity);
     light_states_ = Buffer(device, std::max<size_t>(1, intensities_.size()) * sizeof(LightState), "lights");
     descriptors_.set_buffer(binding_light_states, light_states_);
@@ -125,6 +130,12 @@ void Resident::upload_map(const PhotonMap& map) {
     upload_chunks<PhotonPlace>(binding_places, map.places, constants_[constant_place_shift], "photon places");
     upload_chunks<uint>(binding_fluxes, map.fluxes, constants_[constant_flux_shift], "photon fluxes");
     upload_chunks<uint>(binding_directions, map.directions, constants_[constant_flux_shift], "photon directions");
+}
+
+void Resident::upload_direct(const Scene& scene, const Bvh& bvh) {
+    upload_array<Light>(binding_lights, scene.lights, "lamps");
+    upload_array<BvhNode>(binding_bvh_nodes, bvh.nodes, "nodes of the shadow rays' hierarchy");
+    upload_array<uint>(binding_bvh_triangles, bvh.triangles, "triangles of the shadow rays' hierarchy");
 }
 
 template <class T>

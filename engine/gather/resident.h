@@ -6,6 +6,7 @@
 
 #include "gpu/pipeline.h"
 #include "maps/photon_map.h"
+#include "scene/bvh.h"
 #include "scene/scene.h"
 #include "shaders/frame.h"
 
@@ -21,7 +22,9 @@ class Resident {
   public:
     /// Uploads everything; all lights at factor 1. A map without triangle_maps means no photons.
     /// Throws Error saying which array does not fit, and what would.
-    Resident(const Device& device, const Scene& scene, const PhotonMap& map, ResidentSettings settings = {});
+    /// `bvh` is empty when no punctual lamp lights the scene, or when the photons hold its direct light.
+    Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh = {},
+             ResidentSettings settings = {});
 
     /// Dims the lights: one factor per light of the scene, >= 0. Rewrites one small buffer.
     void set_light_factors(std::span<const float> factors);
@@ -30,7 +33,9 @@ class Resident {
     /// Specialization constants of the scene; gather_mode and heap_size are left to the pass.
     const ShaderConstants& constants() const { return constants_; }
     uint triangle_count() const { return triangle_count_; }
-    float max_radius() const { return max_radius_; }  // m
+    float max_radius() const { return max_radius_; }    // m
+    float ray_epsilon() const { return ray_epsilon_; }  // m
+    float scene_size() const { return scene_size_; }    // m
     float inverse_flux_scale() const { return inverse_flux_scale_; }
     uint64_t bytes() const;  // GPU memory of all buffers
 
@@ -38,6 +43,7 @@ class Resident {
     void choose_constants(const Scene& scene, const PhotonMap& map);
     void upload_scene(const Scene& scene);
     void upload_map(const PhotonMap& map);
+    void upload_direct(const Scene& scene, const Bvh& bvh);
     template <class T>
     void upload_array(uint binding, std::span<const T> values, const std::string& what);
     template <class T>
@@ -49,6 +55,8 @@ class Resident {
     uint triangle_count_;
     float max_radius_;
     float inverse_flux_scale_;
+    float ray_epsilon_;
+    float scene_size_;
     std::vector<vec3> intensities_;
     DescriptorSet descriptors_;
     std::vector<Buffer> buffers_;

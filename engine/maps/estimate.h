@@ -1,6 +1,8 @@
-// Density estimation on the CPU: the text of shaders/gather.glsl over a PhotonMap; the oracle of the gather shader.
+// Density estimation and direct light on the CPU: the text of shaders/gather.glsl and direct.glsl over a PhotonMap; the
+// oracle of the gather shader.
 #pragma once
 #include "maps/photon_map.h"
+#include "scene/bvh.h"
 #include "scene/surface.h"
 
 namespace lw {
@@ -18,7 +20,7 @@ class PhotonEstimator : public SurfaceReader {
 
     /// `light_weights`: RGB power of each light in its own unit (intensity x dimmer).
     PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_weights,
-                    GatherSettings settings)
+                    GatherSettings settings, const Bvh& bvh = no_shadows())
         : SurfaceReader(scene),
           grids(map.grids.data()),
           cell_starts(map.cell_starts.data()),
@@ -28,13 +30,22 @@ class PhotonEstimator : public SurfaceReader {
           neighbours(settings.neighbours),
           max_radius(map.settings.radius),
           inverse_flux_scale(1.0f / map.flux_scale),
-          has_directions(map.has_directions()) {}
+          has_directions(map.has_directions()),
+          lights(scene.lights.data()),
+          bvh_nodes(bvh.nodes.data()),
+          bvh_triangles(bvh.triangles.data()),
+          light_count(uint(scene.lights.size())),
+          bvh_node_count(uint(bvh.nodes.size())),
+          ray_epsilon(scene.ray_epsilon()),
+          scene_size(scene.size()),
+          has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {}
 
     PhotonPlace photon_place(uint i) const { return map_.places[i]; }
     uint photon_flux(uint i) const { return map_.fluxes[i]; }
     uint photon_direction(uint i) const { return map_.directions[i]; }
     vec3 light_weight(uint light) const { return weights_[light]; }
 
+#include "shaders/direct.glsl"
 #include "shaders/gather.glsl"
 
     /// The estimate at (triangle, barycentrics) seen from direction `to_view` (unit).
@@ -42,11 +53,18 @@ class PhotonEstimator : public SurfaceReader {
         const Surface s = surface_at(triangle, barycentrics);
         const bool back = dot(s.geometric_normal, to_view) < 0;
         const float side = back ? -1.0f : 1.0f;
-        return gather_photons(map_.triangle_maps[2 * triangle + (back ? 1 : 0)], s, s.geometric_normal * side,
-                              s.normal * side, to_view);
+        const vec3 ng = s.geometric_normal * side, n = s.normal * side;
+        Gathered sum = gather_photons(map_.triangle_maps[2 * triangle + (back ? 1 : 0)], s, ng, n, to_view);
+        if (has_direct) add_direct(s, ng, n, to_view, sum);
+        return sum;
     }
 
   private:
+    static const Bvh& no_shadows() {
+        static const Bvh none;
+        return none;
+    }
+
     const SurfaceGrid* grids;
     const uint* cell_starts;
     const PhotonMap& map_;
@@ -56,6 +74,12 @@ class PhotonEstimator : public SurfaceReader {
     float max_radius;
     float inverse_flux_scale;
     bool has_directions;
+    const Light* lights;
+    const BvhNode* bvh_nodes;
+    const uint* bvh_triangles;
+    uint light_count, bvh_node_count;
+    float ray_epsilon, scene_size;
+    bool has_direct;
 };
 
 }  // namespace lw

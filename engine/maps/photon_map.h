@@ -13,6 +13,8 @@ struct BakeSettings {
     float radius = 0;                // m, largest search radius; 0 in the settings means automatic
     float neighbour_angle_deg = 60;  // largest angle between the normals of a photon and a map that refers to it
     uint64_t seed = 1;
+    bool direct_in_photons =
+        false;  // direct light of punctual lamps: from photons as in the paper, or exact by shadow rays
 };
 
 /// References to photons, sorted by map and cell. All record arrays have one entry per reference.

@@ -31,8 +31,11 @@ struct Chunk {
 
 class Shooter {
   public:
-    Shooter(const Scene& scene, const RayCaster& caster, uint64_t seed)
-        : caster_(caster), surfaces_(scene), emitters_(scene), aims_(scene.lights.size()), seed_(seed) {}
+    Shooter(const Scene& scene, const RayCaster& caster, const ShootSettings& settings)
+        : caster_(caster), surfaces_(scene), emitters_(scene), aims_(scene.lights.size()), seed_(settings.seed) {
+        for (const Light& light : scene.lights)
+            stores_direct_.push_back(settings.direct_in_photons || light.type == light_mesh);
+    }
 
     void aim(uint light, Aim aim) { aims_[light] = std::move(aim); }
 
@@ -51,6 +54,7 @@ class Shooter {
     SurfaceReader surfaces_;
     Emitters emitters_;
     std::vector<Aim> aims_;
+    std::vector<char> stores_direct_;  // per lamp
     uint64_t seed_;
 };
 
@@ -78,7 +82,7 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
         }
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
         const bool back = dot(s.geometric_normal, direction) > 0;
-        if (!surfaces_.is_purely_specular(s))
+        if (!surfaces_.is_purely_specular(s) && (path != path_direct || stores_direct_[chunk.light]))
             chunk.photons.push_back(
                 {s.position, flux, -direction, hit->triangle, pack_origin(chunk.light, path, back)});
         const std::optional<Scatter> next = sample_bsdf(surfaces_, s, -direction, rng);
@@ -172,7 +176,7 @@ std::vector<uint64_t> plan_emission(const Shooter& shooter, const Scene& scene, 
 
 Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSettings& settings) {
     if (scene.lights.size() > light_mask) throw Error(scene.path.filename().string() + ": more than 16383 lamps");
-    Shooter shooter(scene, caster, settings.seed);
+    Shooter shooter(scene, caster, settings);
     aim_suns(shooter, scene);
     const std::vector<uint64_t> emitted = plan_emission(shooter, scene, settings.photons);
     std::vector<Chunk> chunks = split_paths(emitted, std::vector<uint64_t>(emitted.size(), 0));

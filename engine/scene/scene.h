@@ -51,6 +51,13 @@ struct Scene {
     uint64_t content_hash = 0;          // geometry, materials, lamps' places and shapes; not their powers or cameras
     std::vector<std::string> warnings;  // each said once: what was ignored or replaced
 
+    /// Length of the diagonal of the bounds, m.
+    float size() const { return length(bounds[1] - bounds[0]); }
+    /// A few units of float precision at the largest coordinate, m: what rays start above their surface.
+    float ray_epsilon() const {
+        const vec3 reach = max(abs(bounds[0]), abs(bounds[1]));
+        return 4e-6f * max(max(reach.x, reach.y), max(reach.z, 1e-30f));
+    }
     const Material& material_of(uint triangle) const { return materials[objects[triangle_objects[triangle]].material]; }
 };
 

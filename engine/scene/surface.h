@@ -31,7 +31,10 @@ class SurfaceReader {
 #include "shaders/bsdf.glsl"
 #include "shaders/surface.glsl"
 
-  private:
+  protected:
+    static constexpr bool has_alpha = true;  // the CPU asks the material
+    static constexpr bool has_transmission = true;
+
     const vec3* positions;
     const vec3* normals;
     const vec2* uv0;

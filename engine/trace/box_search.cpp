@@ -45,7 +45,8 @@ BoxSearch::BoxSearch(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
-    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw Error("photon map: Embree could not build the hierarchy of the maps");
+    if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+        throw Error("photon map: Embree could not build the hierarchy of the maps");
 }
 
 BoxSearch::~BoxSearch() {

@@ -22,7 +22,8 @@ class BoxSearch {
     /// Calls visit(index) for every box within `radius` of `point` (and possibly a few more).
     template <class Visit>
     void near(vec3 point, float radius, Visit&& visit) const {
-        query(point, radius, [](void* context, uint box) { (*static_cast<Visit*>(context))(box); }, &visit);
+        query(
+            point, radius, [](void* context, uint box) { (*static_cast<Visit*>(context))(box); }, &visit);
     }
 
   private:

@@ -72,8 +72,7 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), surfaces_(scene) {
     if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
         throw Error(scene.path.filename().string() + ": Embree could not build its hierarchy");
 
-    const vec3 reach = max(abs(scene.bounds[0]), abs(scene.bounds[1]));
-    epsilon_ = 4e-6f * std::max({reach.x, reach.y, reach.z, 1e-30f});
+    epsilon_ = scene.ray_epsilon();
     for (const Material& m : scene.materials) {
         has_holes_ |= (m.flags & (material_alpha_mask | material_alpha_blend)) != 0;
         has_thin_glass_ |= (m.flags & material_thin) != 0 && m.transmission > 0;

@@ -12,6 +12,7 @@
 #include "maps/packing.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
+#include "trace/build_bvh.h"
 #include "trace/emitter.h"
 #include "trace/path_tracer.h"
 
@@ -24,8 +25,8 @@ struct Baked {
     explicit Baked(const std::string& name, uint64_t count = 200000)
         : scene(load_gltf(file_in_data(name))),
           caster(scene),
-          photons(shoot_photons(scene, caster, {count, 1})),
-          map(build_photon_map(scene, photons, {count, 0, 60, 1})),
+          photons(shoot_photons(scene, caster, {count, 1, true})),
+          map(build_photon_map(scene, photons, {count, 0, 60, 1, true})),
           weights(light_weights(scene, {})) {}
     Scene scene;
     RayCaster caster;
@@ -147,6 +148,49 @@ TEST(Estimate, InteriorOfTheCubeAgreesWithThePathTracer) {
             }
         EXPECT_NEAR(map_sum / truth_sum, 1, 0.01) << "mode " << mode;
     }
+}
+
+TEST(Estimate, ExactDirectLightOfAPointLampFollowsTheInverseSquareAndCosineLaws) {
+    const Scene scene = load_gltf(file_in_data("cube.gltf"));
+    const Bvh bvh = build_bvh(scene);
+    PhotonMap dark;
+    dark.triangle_maps.assign(2 * scene.triangles.size(), no_map);
+    dark.settings.radius = 1;
+    const std::vector<vec3> weights = light_weights(scene, {});
+    const PhotonEstimator estimator(scene, dark, weights, {}, bvh);
+    for (uint t = 0; t < scene.triangles.size(); ++t)
+        for (const vec2 place : {vec2(0.2f, 0.2f), vec2(0.05f, 0.9f), vec2(0.5f, 0.5f)}) {
+            const Surface s = estimator.surface_at(t, place);
+            const vec3 path = scene.lights[0].position - s.position;
+            const float expected = 100 * abs(dot(normalize(path), s.geometric_normal)) / dot(path, path);
+            EXPECT_NEAR(estimator.estimate(t, place, normalize(path)).irradiance.y, expected, 1e-4f * expected);
+            EXPECT_EQ(estimator.estimate(t, place, -normalize(path)).irradiance.y, 0) << "light through a wall";
+        }
+}
+
+TEST(Estimate, ShadowRaysAgreeWithEmbree) {
+    const Scene scene = load_gltf(file_in_data("apartment.glb"));
+    const RayCaster caster(scene);
+    const Bvh bvh = build_bvh(scene);
+    const PhotonMap none;
+    const std::vector<vec3> weights;
+    const PhotonEstimator estimator(scene, none, weights, {}, bvh);
+    Rng rng(5, 1, 1);
+    int blocked = 0, different = 0;
+    constexpr int rays = 20000;
+    for (int i = 0; i < rays; ++i) {
+        const auto inside = [&] {
+            return mix(scene.bounds[0], scene.bounds[1], vec3(rng.next(), rng.next(), rng.next()));
+        };
+        const vec3 from = inside(), to = inside();
+        const float far = length(to - from);
+        const bool open = estimator.shadow_ray(from, (to - from) / far, far - scene.ray_epsilon()).x > 0;
+        blocked += !open;
+        different += open != (caster.transmittance(from, to).x > 0);
+    }
+    EXPECT_GT(blocked, rays / 10);
+    EXPECT_LT(blocked, rays * 9 / 10);
+    EXPECT_LE(different, rays / 2000);  // rays that graze an edge
 }
 
 TEST(Estimate, ReferencesPerPhotonStayBounded) {

@@ -10,6 +10,7 @@
 #include "maps/estimate.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
+#include "trace/build_bvh.h"
 #include "trace/emitter.h"
 #include "trace/reference.h"
 
@@ -20,10 +21,12 @@ struct Baked {
     Baked(const std::string& name, uint64_t count)
         : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/" + name)),
           caster(scene),
-          map(build_photon_map(scene, shoot_photons(scene, caster, {count, 1}), {count, 0, 60, 1})) {}
+          map(build_photon_map(scene, shoot_photons(scene, caster, {count, 1}), {count, 0, 60, 1})),
+          bvh(build_bvh(scene)) {}
     Scene scene;
     RayCaster caster;
     PhotonMap map;
+    Bvh bvh;
 };
 
 void expect_no_messages(const Device& device) {
@@ -33,7 +36,7 @@ void expect_no_messages(const Device& device) {
 /// Compares every pixel of the shader with the CPU estimate at what the pixel saw, emission left out.
 void expect_same(const Baked& baked, uint mode, uint width, uint height) {
     const Device device(DeviceSettings{"", true});
-    const Resident resident(device, baked.scene, baked.map);
+    const Resident resident(device, baked.scene, baked.map, baked.bvh);
     Renderer renderer(device, resident, width, height);
     RenderSettings settings;
     settings.gather = {mode, 50};
@@ -41,7 +44,7 @@ void expect_same(const Baked& baked, uint mode, uint width, uint height) {
     const Rendering got = renderer.render(camera, settings);
     const std::vector<VisibleSample> seen = renderer.visible_samples();
     const std::vector<vec3> weights = light_weights(baked.scene, {});
-    const PhotonEstimator estimator(baked.scene, baked.map, weights, settings.gather);
+    const PhotonEstimator estimator(baked.scene, baked.map, weights, settings.gather, baked.bvh);
     const std::vector<float>& lux = got.image.find("illuminance")->values;
     const std::vector<float>& green = got.image.find("G")->values;
     size_t compared = 0, different = 0;
@@ -97,7 +100,7 @@ bool is_interior(const Image& image, int x, int y, int reach) {
 TEST(Agreement, MapOfTheCornellBoxHasTheMeanOfThePathTracer) {
     const Baked baked("cornell.gltf", 1000000);
     const Device device(DeviceSettings{"", true});
-    const Resident resident(device, baked.scene, baked.map);
+    const Resident resident(device, baked.scene, baked.map, baked.bvh);
     Renderer renderer(device, resident, 96, 96);
     const Camera& camera = baked.scene.cameras[0];
     const Image got = renderer.render(camera, {}).image;
@@ -121,7 +124,7 @@ TEST(Agreement, MapOfTheCornellBoxHasTheMeanOfThePathTracer) {
 TEST(Agreement, DoubledLampDoublesThePicture) {
     const Baked baked("cornell.gltf", 50000);
     const Device device(DeviceSettings{"", true});
-    Resident resident(device, baked.scene, baked.map);
+    Resident resident(device, baked.scene, baked.map, baked.bvh);
     Renderer renderer(device, resident, 48, 48);
     const Image once = renderer.render(baked.scene.cameras[0], {}).image;
     resident.set_light_factors(std::vector<float>{2});

@@ -1,0 +1,15 @@
+// The hierarchy that shadow rays in compute traverse, as plain arrays (shaders/bvh.h). Built by trace/build_bvh.
+#pragma once
+#include <vector>
+
+#include "shaders/bvh.h"
+
+namespace lw {
+
+/// Empty when the scene has no punctual lamp: then no shadow ray is ever traced.
+struct Bvh {
+    std::vector<BvhNode> nodes;   // depth first
+    std::vector<uint> triangles;  // triangle ids in leaf order
+};
+
+}  // namespace lw
