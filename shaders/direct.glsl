@@ -1,7 +1,7 @@
-// Exact direct light of punctual lamps (point, spot, sun) by shadow rays through the BVH; the light of emissive meshes
-// stays in the photons. One text for C++ and GLSL. The including scope provides what surface.glsl and bsdf.glsl need,
-// and the arrays bvh_nodes, bvh_triangles, lights, the function light_weight and the constants has_alpha,
-// has_transmission, light_count, ray_epsilon.
+// Exact direct light by shadow rays through the BVH: one ray for a point, spot or directional lamp, `shadow_rays` for an
+// emissive mesh. One text for C++ and GLSL. The including scope provides what surface.glsl and bsdf.glsl need, and the
+// arrays bvh_nodes, bvh_triangles, lights, emitters, the function light_weight and the constants has_alpha,
+// has_transmission, light_count, shadow_rays, ray_epsilon, scene_size.
 
 /// True when a triangle is crossed by origin + t direction, 0 < t < far (Moeller & Trumbore 1997, edges included).
 bool crosses_triangle(uint triangle, vec3 origin, vec3 direction, float far, LW_INOUT(vec2) barycentrics) LW_MEMBER {
@@ -66,36 +66,102 @@ vec3 shadow_ray(vec3 origin, vec3 direction, float far) LW_MEMBER {
     return light;
 }
 
-/// Adds the unoccluded, then shadowed, light of one lamp to `sum`.
-void add_punctual(uint index, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LW_INOUT(Gathered) sum) LW_MEMBER {
-    Light lamp = lights[index];
-    vec3 weight = light_weight(index);
-    if (lamp.type == light_mesh || max(weight.x, max(weight.y, weight.z)) <= 0.0f) return;
-    vec3 to_light = -lamp.direction;
-    float far = scene_size;
-    if (lamp.type != light_directional) {
-        vec3 path = lamp.position - s.position;
-        float d2 = dot(path, path);
-        if (d2 <= 0.0f) return;
-        far = sqrt(d2);
-        to_light = path / far;
-        weight /= d2;
-    }
-    if (lamp.type == light_spot) {  // KHR_lights_punctual
-        float t = clamp((-dot(to_light, lamp.direction) - lamp.cos_outer) / max(lamp.cos_inner - lamp.cos_outer, 1e-6f), 0.0f, 1.0f);
-        weight *= t * t;
-        if (t <= 0.0f) return;
-    }
+/// Adds light arriving along unit `to_light` with irradiance `incoming` on a plane facing it, as far as no surface
+/// within `far` metres is in the way.
+void add_incident(vec3 incoming, vec3 to_light, float far, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
+                  LW_INOUT(Gathered) sum) LW_MEMBER {
     float cos_geometric = dot(n_geometric, to_light);
-    if (cos_geometric <= 0.0f) return;
-    vec3 origin = s.position + n_geometric * ray_epsilon;
-    weight *= shadow_ray(origin, to_light, far - ray_epsilon);
-    if (max(weight.x, max(weight.y, weight.z)) <= 0.0f) return;
-    sum.irradiance += weight * cos_geometric;
-    sum.radiance += weight * max(dot(n_shading, to_light), 0.0f) * eval_brdf(s, n_shading, to_view, to_light, false);
+    if (cos_geometric <= 0.0f || max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) return;
+    incoming *= shadow_ray(s.position + n_geometric * ray_epsilon, to_light, far - 2.0f * ray_epsilon);
+    if (max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) return;
+    sum.irradiance += incoming * cos_geometric;
+    sum.radiance += incoming * max(dot(n_shading, to_light), 0.0f) * eval_brdf(s, n_shading, to_view, to_light, false);
 }
 
-/// Adds the direct light of all punctual lamps to what the photons say.
-void add_direct(Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LW_INOUT(Gathered) sum) LW_MEMBER {
-    for (uint i = 0u; i < light_count; ++i) add_punctual(i, s, n_geometric, n_shading, to_view, sum);
+/// Point, spot or directional lamp; falloff as KHR_lights_punctual.
+void add_punctual(Light lamp, vec3 weight, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
+                  LW_INOUT(Gathered) sum) LW_MEMBER {
+    if (lamp.type == light_directional) {
+        add_incident(weight, -lamp.direction, scene_size, s, n_geometric, n_shading, to_view, sum);
+        return;
+    }
+    vec3 path = lamp.position - s.position;
+    float d2 = dot(path, path);
+    if (d2 <= 0.0f) return;
+    float far = sqrt(d2);
+    vec3 to_light = path / far;
+    weight /= d2;
+    if (lamp.type == light_spot) {
+        float width = max(lamp.cos_inner - lamp.cos_outer, 1e-6f);
+        float t = clamp((-dot(to_light, lamp.direction) - lamp.cos_outer) / width, 0.0f, 1.0f);
+        weight *= t * t;
+    }
+    add_incident(weight, to_light, far, s, n_geometric, n_shading, to_view, sum);
+}
+
+/// The triangle of a mesh lamp in which a share `u` of its area ends, and how far into it.
+uint pick_emitter(Light lamp, float u, LW_INOUT(float) within) LW_MEMBER {
+    uint first = lamp.first_emitter;
+    uint last = first + lamp.emitter_count - 1u;
+    float wanted = u * emitters[last].area_below;
+    uint low = first;
+    uint high = last;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (wanted < emitters[middle].area_below)
+            high = middle;
+        else
+            low = middle + 1u;
+    }
+    float start = low == first ? 0.0f : emitters[low - 1u].area_below;
+    within = clamp((wanted - start) / max(emitters[low].area_below - start, 1e-30f), 0.0f, 0.99999994f);
+    return emitters[low].triangle;
+}
+
+/// One point of a mesh lamp, uniform by area, standing for a `share` of it: E = L A cos(theta) cos(theta') / d^2.
+void add_mesh_point(Light lamp, vec3 weight, vec2 u, float share, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
+                    LW_INOUT(Gathered) sum) LW_MEMBER {
+    float within = 0.0f;
+    uint triangle = pick_emitter(lamp, u.x, within);
+    float root = sqrt(within);
+    Surface e = surface_at(triangle, vec2(root * (1.0f - u.y), root * u.y));
+    vec3 path = e.position - s.position;
+    float d2 = dot(path, path);
+    if (d2 <= 0.0f) return;
+    float far = sqrt(d2);
+    vec3 to_light = path / far;
+    float cos_emitted = -dot(e.geometric_normal, to_light);
+    if ((e.flags & material_double_sided) != 0u) cos_emitted = abs(cos_emitted);
+    if (cos_emitted <= 0.0f) return;
+    float area = emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below;
+    vec3 emitted = e.emissive / max(lamp.intensity, vec3(1e-20f));
+    add_incident(weight * emitted * (share * area * cos_emitted / d2), to_light, far, s, n_geometric, n_shading, to_view, sum);
+}
+
+uint hash_uint(uint x) LW_MEMBER {  // Wellons 2018, "lowbias32"
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
+/// Adds the direct light of all lamps to what the photons say. `seed` shifts the points on mesh lamps (Cranley &
+/// Patterson 1976) of the R2 sequence (Roberts 2018).
+void add_direct(Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed, LW_INOUT(Gathered) sum) LW_MEMBER {
+    for (uint i = 0u; i < light_count; ++i) {
+        Light lamp = lights[i];
+        vec3 weight = light_weight(i);
+        if (max(weight.x, max(weight.y, weight.z)) <= 0.0f) continue;
+        if (lamp.type != light_mesh) {
+            add_punctual(lamp, weight, s, n_geometric, n_shading, to_view, sum);
+            continue;
+        }
+        uint random = hash_uint(seed + hash_uint(i));
+        vec2 shift = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
+        for (uint j = 0u; j < shadow_rays; ++j) {
+            vec2 u = fract(shift + float(j) * vec2(0.754877666f, 0.569840291f));
+            add_mesh_point(lamp, weight, u, 1.0f / float(shadow_rays), s, n_geometric, n_shading, to_view, sum);
+        }
+    }
 }

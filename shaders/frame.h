@@ -31,10 +31,12 @@ LW_CONST uint binding_directions = 18u;
 LW_CONST uint binding_lights = 19u;
 LW_CONST uint binding_bvh_nodes = 20u;
 LW_CONST uint binding_bvh_triangles = 21u;
-LW_CONST uint scene_binding_count = 22u;
+LW_CONST uint binding_coverage = 22u;
+LW_CONST uint binding_emitters = 23u;
+LW_CONST uint scene_binding_count = 24u;
 
 // Photon records larger than maxStorageBufferRange are split into chunks of 2^shift records, one descriptor each.
-// 27 storage buffers here and 3 in set 1 stay within lavapipe's 32 per stage: 2^24 x 4 references with its 128 MiB.
+// 29 storage buffers here and 3 in set 1 stay within lavapipe's 32 per stage: 2^24 x 4 references with its 128 MiB.
 LW_CONST uint most_place_chunks = 4u;
 LW_CONST uint most_flux_chunks = 2u;
 
@@ -58,7 +60,8 @@ LW_CONST uint constant_flux_shift = 11u;
 LW_CONST uint constant_gather_mode = 12u;
 LW_CONST uint constant_heap_size = 13u;
 LW_CONST uint constant_has_direct = 14u;
-LW_CONST uint constant_count = 15u;
+LW_CONST uint constant_has_coverage = 15u;
+LW_CONST uint constant_count = 16u;
 
 LW_CONST uint no_triangle = 0xffffffffu;
 
@@ -87,6 +90,7 @@ struct Frame {
     float sample_weight;  // 1 / samples
     float ray_epsilon;    // m, what shadow rays start above their surface
     float scene_size;     // m, beyond which nothing stands
+    uint shadow_rays;     // per emissive mesh
 };
 
 /// Push constants of the tone mapping pass.
@@ -98,7 +102,7 @@ struct Screen {
 
 #ifdef __cplusplus
 static_assert(sizeof(LightState) == 16 && sizeof(Screen) == 12);
-static_assert(sizeof(Frame) == 108 && offsetof(Frame, scene_size) == 104);
+static_assert(sizeof(Frame) == 112 && offsetof(Frame, shadow_rays) == 108);
 }  // namespace lw
 #else
 
@@ -117,6 +121,7 @@ layout(constant_id = constant_flux_shift) const uint flux_shift = 25u;
 layout(constant_id = constant_gather_mode) const uint gather_mode = 1u;
 layout(constant_id = constant_heap_size) const uint heap_size = 256u;
 layout(constant_id = constant_has_direct) const bool has_direct = true;
+layout(constant_id = constant_has_coverage) const bool has_coverage = true;
 
 #define LW_ARRAY(TYPE, NAME) \
     layout(set = 0, binding = binding_##NAME, scalar) readonly buffer NAME##_buffer { TYPE NAME[]; }

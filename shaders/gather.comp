@@ -1,6 +1,5 @@
-// Light at what each pixel sees: the photons of the map on the visible side of the triangle, through the BRDF, the direct
-// light of punctual lamps by shadow rays,
-// and the surface's own glow. Writes radiance (cd/m2) and illuminance (lux), shading normal and depth (m along -Z).
+// Light at what each pixel sees: the photons of the map on the visible side of the triangle, through the BRDF, direct light
+// by shadow rays, and the surface's own glow. Writes radiance (cd/m2) and illuminance (lux), shading normal and depth (m along -Z).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -17,6 +16,8 @@ LW_ARRAY(uint, cell_starts);
 LW_ARRAY(Light, lights);
 LW_ARRAY(BvhNode, bvh_nodes);
 LW_ARRAY(uint, bvh_triangles);
+LW_ARRAY(Emitter, emitters);
+LW_ARRAY(uint, coverage);
 layout(set = 0, binding = binding_places, scalar) readonly buffer Places { PhotonPlace records[]; }
 places[most_place_chunks];
 layout(set = 0, binding = binding_fluxes, scalar) readonly buffer Fluxes { uint records[]; }
@@ -33,6 +34,7 @@ layout(set = 1, binding = binding_normal_depth, scalar) writeonly buffer NormalD
 #define inverse_flux_scale frame.inverse_flux_scale
 #define ray_epsilon frame.ray_epsilon
 #define scene_size frame.scene_size
+#define shadow_rays frame.shadow_rays
 #define light_count uint(lights.length())
 #define bvh_node_count uint(bvh_nodes.length())
 
@@ -96,7 +98,8 @@ void main() {
     vec3 n_shading = front ? s.normal : -s.normal;
     uint map = triangle_maps[2u * visible.x + (front ? 0u : 1u)];
     Gathered light = gather_photons(map, s, n_geometric, n_shading, normalize(to_camera));
-    if (has_direct) add_direct(s, n_geometric, n_shading, normalize(to_camera), light);
+    uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
+    if (has_direct) add_direct(s, n_geometric, n_shading, normalize(to_camera), seed, light);
     float illuminance = dot(light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
     store(pixel, vec4(light.radiance + own_radiance(s, front), illuminance),
           vec4(n_shading, dot(to_camera, frame.camera_back)));

@@ -1,15 +1,7 @@
 // Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
 // The including scope provides the arrays grids, cell_starts, the functions photon_place, photon_flux,
 // photon_direction, light_weight and the constants gather_mode, neighbours, heap_size, max_radius,
-// inverse_flux_scale, has_directions. Needs photon_map.h and bsdf.glsl.
-
-/// Photons on a surface that is parallel but not the same: the height above the query may grow with the distance
-/// (curved and creased surfaces), but not more.
-bool on_same_surface(float height, float distance_squared) LW_MEMBER {
-    float tolerance = 0.01f * max_radius;
-    float excess = max(abs(height) - tolerance, 0.0f);
-    return excess * excess <= 0.75f * distance_squared;  // slope of a 60 degree crease
-}
+// inverse_flux_scale, has_directions, has_coverage and with the latter the array coverage. Needs photon_map.h and bsdf.glsl.
 
 /// Adds photon `i`, weighted by `kernel` (1/m2).
 void add_photon(uint i, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
@@ -63,7 +55,7 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
                 for (uint i = span.x; i < span.y; ++i) {
                     vec3 d = place_in_grid(photon_place(i), grid) - local;
                     float d2 = dot(d, d);
-                    if (d2 >= bound || !on_same_surface(d.z, d2)) continue;
+                    if (d2 >= bound || !on_same_surface(d.z, d2, max_radius)) continue;
                     uint hole;
                     if (count < k) {
                         hole = count++;
@@ -153,12 +145,27 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
         for (uint i = span.x; i < span.y; ++i) {
             vec3 d = place_in_grid(photon_place(i), grid) - local;
             float d2 = dot(d, d);
-            if (d2 >= r2 || !on_same_surface(d.z, d2)) continue;
+            if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
             sum.photons += 1.0f;
             add_photon(i, peak * (1.0f - d2 / r2), s, n_geometric, n_shading, to_view, sum);
         }
     }
     return sum;
+}
+
+/// The part of the kernel of `radius` around a point that lies on surface light can reach; between the lattice's nodes.
+float coverage_at(SurfaceGrid grid, vec3 local, float radius) LW_MEMBER {
+    SurfaceLattice lattice = grid.lattice;
+    vec2 last = vec2(float(lattice.columns - 1u), float(lattice.rows - 1u));
+    vec2 at = clamp((vec2(local.x, local.y) - lattice.low) / lattice.step, vec2(0.0f), last);
+    vec2 base = min(floor(at), last - 1.0f);
+    vec2 f = at - base;
+    uint node = lattice.first_node + uint(base.y) * lattice.columns + uint(base.x);
+    float fraction = radius / grid.radius;
+    float below = mix(unpack_coverage(coverage[node], fraction), unpack_coverage(coverage[node + 1u], fraction), f.x);
+    node += lattice.columns;
+    float above = mix(unpack_coverage(coverage[node], fraction), unpack_coverage(coverage[node + 1u], fraction), f.x);
+    return max(mix(below, above, f.y), least_coverage);
 }
 
 /// Reflected radiance and irradiance at surface `s` from the photons of `map`; zero when the map is no_map.
@@ -176,5 +183,10 @@ Gathered gather_photons(uint map, Surface s, vec3 n_geometric, vec3 n_shading, v
     vec3 offset = s.position - grid.origin;
     vec3 local = vec3(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
     if (gather_mode == 0u) return gather_exact(grid, local, s, n_geometric, n_shading, to_view);
-    return gather_smooth(grid, local, s, n_geometric, n_shading, to_view);
+    Gathered sum = gather_smooth(grid, local, s, n_geometric, n_shading, to_view);
+    if (!has_coverage) return sum;
+    float covered = coverage_at(grid, local, sum.radius);
+    sum.radiance /= covered;
+    sum.irradiance /= covered;
+    return sum;
 }

@@ -13,6 +13,16 @@ LW_CONST uint path_caustic = 2u;   // specular bounces only
 LW_CONST uint light_mask = 0x3fffu;  // low 14 bits of light_and_path
 LW_CONST uint path_shift = 14u;
 
+/// The static lattice of a map, independent of its photons: node (i, j) is entry first_node + j * columns + i, at
+/// low + (i, j) * step in the u, v of its grid.
+struct SurfaceLattice {
+    vec2 low;   // m
+    vec2 step;  // m
+    uint columns;
+    uint rows;
+    uint first_node;
+};
+
 /// The 2D uniform grid of one map: a triangle, or a patch of small triangles of like orientation, seen from one side.
 /// Cell (i, j) is cell_starts[first_cell + j * columns + i], its end the next entry.
 struct SurfaceGrid {
@@ -27,7 +37,13 @@ struct SurfaceGrid {
     vec3 quantum;      // metres per step of the 16-bit u, v, h of its records
     float h_origin;    // height of step 0 along the normal
     float radius;      // largest search radius of this map, m
+    SurfaceLattice lattice;
 };
+
+/// Coverage of the kernels of radius R/4, R/2, 3R/4 and R of a map with largest radius R, one byte each.
+LW_CONST uint coverage_levels = 4u;
+LW_CONST float coverage_unit = 160.0f;  // the byte of coverage 1
+LW_CONST float least_coverage = 0.05f;
 
 /// Where a referenced photon lies in its map, and which light it came from (8 bytes).
 struct PhotonPlace {
@@ -57,6 +73,23 @@ LW_INLINE uint light_of(PhotonPlace place) { return (place.h_light_and_path >> 1
 
 LW_INLINE uint path_of(PhotonPlace place) { return place.h_light_and_path >> 30; }
 
+/// Photons on a surface that is parallel but not the same: the height above the query may grow with the distance
+/// (curved and creased surfaces), but not more.
+LW_INLINE bool on_same_surface(float height, float distance_squared, float max_radius) {
+    float tolerance = 0.01f * max_radius;
+    float excess = max(abs(height) - tolerance, 0.0f);
+    return excess * excess <= 0.75f * distance_squared;  // slope of a 60 degree crease
+}
+
+/// Coverage of the kernel whose radius is `fraction` of the map's, between the packed levels.
+LW_INLINE float unpack_coverage(uint bits, float fraction) {
+    float at = clamp(fraction * float(coverage_levels), 1.0f, float(coverage_levels)) - 1.0f;
+    uint below = min(uint(at), coverage_levels - 2u);
+    float low = float((bits >> (8u * below)) & 255u);
+    float high = float((bits >> (8u * below + 8u)) & 255u);
+    return mix(low, high, at - float(below)) / coverage_unit;
+}
+
 /// Shared-exponent RGB9E5 to float (Vulkan 1.3 specification, 'shared exponent to RGB').
 LW_INLINE vec3 unpack_rgb9e5(uint bits) {
     float scale = uintBitsToFloat(((bits >> 27) + 127u - 24u) << 23);
@@ -75,7 +108,8 @@ LW_INLINE vec3 unpack_direction(uint bits) {
 }
 
 #ifdef __cplusplus
-static_assert(sizeof(SurfaceGrid) == 84 && offsetof(SurfaceGrid, radius) == 80 && sizeof(PhotonPlace) == 8);
+static_assert(sizeof(SurfaceLattice) == 28);
+static_assert(sizeof(SurfaceGrid) == 112 && offsetof(SurfaceGrid, lattice) == 84 && sizeof(PhotonPlace) == 8);
 }  // namespace lw
 #endif
 #endif

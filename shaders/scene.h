@@ -82,6 +82,13 @@ struct Light {
     float area;  // m2 of emissive surface, both sides counted when double-sided
 };
 
+/// A triangle of an emissive mesh. Points on a lamp are picked by area: area_below is that of this and all earlier
+/// triangles of the lamp, m2, one side.
+struct Emitter {
+    uint triangle;
+    float area_below;
+};
+
 LW_CONST float lw_pi = 3.14159265358979f;
 /// Smallest GGX alpha that is evaluated as a lobe; smoother surfaces are followed as mirrors.
 LW_CONST float smallest_alpha = 1e-3f;
@@ -107,7 +114,7 @@ struct Surface {
 #ifdef __cplusplus
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Texture) == 28);
 static_assert(sizeof(Material) == 72 + 5 * 32 && offsetof(Material, base_color_texture) == 72);
-static_assert(sizeof(Object) == 8 && sizeof(Light) == 60 && offsetof(Light, area) == 56);
+static_assert(sizeof(Object) == 8 && sizeof(Emitter) == 8 && sizeof(Light) == 60 && offsetof(Light, area) == 56);
 }  // namespace lw
 #endif
 #endif

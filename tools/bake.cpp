@@ -84,7 +84,7 @@ void bake(const Options& options) {
     const lw::Photons photons =
         lw::shoot_photons(scene, caster, {settings.photons, settings.seed, settings.direct_in_photons});
     clock.finish("trace");
-    const lw::PhotonMap map = lw::build_photon_map(scene, photons, settings);
+    const lw::PhotonMap map = lw::build_photon_map(scene, caster, photons, settings);
     clock.finish("maps");
     const std::filesystem::path output =
         options.output.empty() ? lw::default_map_path(options.scene) : std::filesystem::path(options.output);

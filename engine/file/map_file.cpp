@@ -15,8 +15,8 @@ namespace lw {
 namespace {
 
 constexpr std::array<char, 8> magic{'L', 'W', 'P', 'H', 'O', 'T', 'O', 'N'};
-constexpr uint32_t version = 1;
-constexpr size_t section_count = 7;
+constexpr uint32_t version = 2;
+constexpr size_t section_count = 8;
 
 /// The fixed head of the file; sections follow in this order, each `bytes` long.
 struct Header {
@@ -34,7 +34,7 @@ struct Header {
     uint32_t direct_in_photons;
     std::array<uint64_t, section_count> bytes;
 };
-static_assert(sizeof(Header) == 128);
+static_assert(sizeof(Header) == 136);
 constexpr size_t checked_from = offsetof(Header, scene_hash);
 
 /// 64-bit hash in the order of the bytes; the last word is padded with zeros.
@@ -67,6 +67,7 @@ void for_each_section(Map& map, const Visit& visit) {
     visit(map.places);
     visit(map.fluxes);
     visit(map.directions);
+    visit(map.coverage);
 }
 
 template <class T>
@@ -90,6 +91,22 @@ bool all_finite(const SurfaceGrid& g) {
     return finite(g.origin) && finite(g.u_axis) && finite(g.v_axis) && finite(g.normal) && finite(g.quantum) &&
            std::isfinite(g.h_origin) && std::isfinite(g.cell_size) && g.cell_size > 0 && std::isfinite(g.radius) &&
            g.radius > 0;
+}
+
+/// A map with lattices keeps a value for each of their nodes.
+void check_lattices(const std::filesystem::path& path, const PhotonMap& map) {
+    if (!map.has_coverage()) return;
+    uint64_t nodes = 0;
+    for (size_t i = 0; i < map.grids.size(); ++i) {
+        const SurfaceLattice& l = map.grids[i].lattice;
+        const auto above = [](float v, float low) { return std::isfinite(v) && v > low; };
+        if (l.columns < 2 || l.rows < 2 || l.first_node != nodes || !above(l.step.x, 0) || !above(l.step.y, 0) ||
+            !std::isfinite(l.low.x) || !std::isfinite(l.low.y) ||
+            uint64_t(l.columns) * l.rows > map.coverage.size() - nodes)
+            refuse(path, "the lattice of grid " + std::to_string(i) + " is not valid");
+        nodes += uint64_t(l.columns) * l.rows;
+    }
+    if (nodes != map.coverage.size()) refuse(path, "lattices and coverage do not agree");
 }
 
 void check_grids(const std::filesystem::path& path, const PhotonMap& map) {
@@ -210,6 +227,7 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
     if (checksum_of(header, map) != header.checksum)
         refuse(path, "the map file has changed since it was written (checksum)");
     check_indices(path, map, scene);
+    check_lattices(path, map);
     return map;
 }
 

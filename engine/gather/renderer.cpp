@@ -93,6 +93,7 @@ PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& set
         frame.inverse_flux_scale = resident_->inverse_flux_scale();
         frame.ray_epsilon = resident_->ray_epsilon();
         frame.scene_size = resident_->scene_size();
+        frame.shadow_rays = settings.gather.shadow_rays;
         frame.triangle_limit = resident_->triangle_count();
         submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
             using Stage = vk::PipelineStageFlagBits2;

@@ -45,7 +45,7 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
     return bytes(s.positions) + bytes(s.normals) + bytes(s.uv0) + bytes(s.uv1) + bytes(s.colors) + bytes(s.tangents) +
            bytes(s.triangles) + bytes(s.triangle_objects) + bytes(s.texels) + bytes(m.triangle_maps) + bytes(m.grids) +
-           bytes(m.cell_starts) + bytes(m.places) + bytes(m.fluxes) + bytes(m.directions);
+           bytes(m.cell_starts) + bytes(m.places) + bytes(m.fluxes) + bytes(m.directions) + bytes(m.coverage);
 }
 
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map) {
@@ -79,6 +79,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     check_device(device, scene, map);
     choose_constants(scene, map);
     constants_[constant_has_direct] = !bvh.nodes.empty() && !map.settings.direct_in_photons;
+    constants_[constant_has_coverage] = map.has_coverage();
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
@@ -129,11 +130,13 @@ void Resident::upload_map(const PhotonMap& map) {
     upload_array<uint>(binding_cell_starts, map.cell_starts, "cells");
     upload_chunks<PhotonPlace>(binding_places, map.places, constants_[constant_place_shift], "photon places");
     upload_chunks<uint>(binding_fluxes, map.fluxes, constants_[constant_flux_shift], "photon fluxes");
+    upload_array<uint>(binding_coverage, map.coverage, "coverage");
     upload_chunks<uint>(binding_directions, map.directions, constants_[constant_flux_shift], "photon directions");
 }
 
 void Resident::upload_direct(const Scene& scene, const Bvh& bvh) {
     upload_array<Light>(binding_lights, scene.lights, "lamps");
+    upload_array<Emitter>(binding_emitters, scene.emitters, "emitters");
     upload_array<BvhNode>(binding_bvh_nodes, bvh.nodes, "nodes of the shadow rays' hierarchy");
     upload_array<uint>(binding_bvh_triangles, bvh.triangles, "triangles of the shadow rays' hierarchy");
 }

@@ -22,7 +22,7 @@ class Resident {
   public:
     /// Uploads everything; all lights at factor 1. A map without triangle_maps means no photons.
     /// Throws Error saying which array does not fit, and what would.
-    /// `bvh` is empty when no punctual lamp lights the scene, or when the photons hold its direct light.
+    /// `bvh` is empty when the photons hold the direct light.
     Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh = {},
              ResidentSettings settings = {});
 

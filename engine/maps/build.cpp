@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "maps/coverage.h"
 #include "maps/packing.h"
 #include "maps/patches.h"
 #include "maps/references.h"
@@ -116,7 +117,7 @@ float automatic_radius(const Scene& scene, uint64_t photons) {
         area += 0.5 * double(length(cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
     }
     const float half_diagonal = 0.5f * length(scene.bounds[1] - scene.bounds[0]);
-    const double wanted = 1.5 * std::sqrt(200 * area / (double(lw_pi) * double(std::max<uint64_t>(photons, 1))));
+    const double wanted = std::sqrt(250 * area / (double(lw_pi) * double(std::max<uint64_t>(photons, 1))));
     return std::min(float(wanted), half_diagonal);
 }
 
@@ -133,9 +134,9 @@ namespace {
 struct Partition {
     Partition(const Scene& scene, const Photons& photons, const BakeSettings& settings)
         : patches(group_triangles(scene, patch_size_in_radii * settings.radius)), shapes(shapes_of(scene, patches)) {
-        float looseness = 1;
-        for (int tries = 0; tries < 16; ++tries, looseness *= 0.75f) {
-            radii = patch_radii(shapes, settings.radius, looseness);
+        float floor = 0.5f * settings.radius;
+        for (int tries = 0; tries < 16; ++tries, floor *= 0.75f) {
+            radii = patch_radii(shapes, settings.radius, floor);
             if (sample_references({scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg},
                                   20000) < references_per_photon)
                 break;
@@ -146,9 +147,24 @@ struct Partition {
     std::vector<float> radii;
 };
 
+/// Lays the lattices and finds their coverage. All lengths follow the largest radius R: nodes every 0.4 R, a sample
+/// every 0.03 R2 (26 under a kernel of R/2), surfaces closer than R/4 under another one are buried.
+void add_coverage(const Scene& scene, const RayCaster& caster, const Partition& partition,
+                  const std::vector<uint>& kept, PhotonMap& map) {
+    const float radius = map.settings.radius;
+    std::vector<PatchShape> shapes;
+    for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
+    const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.4f * radius, map);
+    const std::vector<Photon> samples =
+        sample_surfaces(scene, caster, 0.03 * double(radius) * double(radius), 0.25f * radius);
+    const References references = find_references(
+        {scene, samples, partition.patches, partition.shapes, partition.radii, map.settings.neighbour_angle_deg});
+    map.coverage = find_coverage(scene, map, nodes, samples, references, kept);
+}
+
 }  // namespace
 
-PhotonMap build_photon_map(const Scene& scene, const Photons& photons, BakeSettings settings) {
+PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings) {
     if (!(settings.radius > 0)) settings.radius = automatic_radius(scene, photons.records.size());
     PhotonMap map;
     map.scene_hash = scene.content_hash;
@@ -181,6 +197,7 @@ PhotonMap build_photon_map(const Scene& scene, const Photons& photons, BakeSetti
     parallel_for(kept.size(), [&](size_t m) {
         fill_grid(map, uint(m), photons.records, first(m), last(m), uint(references.starts[kept[m]]));
     });
+    add_coverage(scene, caster, partition, kept, map);
     return map;
 }
 

@@ -10,7 +10,8 @@ namespace lw {
 /// How photons are turned into radiance; the same settings drive the gather shader.
 struct GatherSettings {
     uint mode = 1;          // 0: exact k nearest neighbours, 1: smooth (bandwidth from cell counts, Epanechnikov)
-    uint neighbours = 500;  // photons per estimate
+    uint neighbours = 300;  // photons per estimate
+    uint shadow_rays = 4;   // per emissive mesh
 };
 
 /// Photon estimate at surface points; read-only view, scene and map must outlive it.
@@ -31,6 +32,8 @@ class PhotonEstimator : public SurfaceReader {
           max_radius(map.settings.radius),
           inverse_flux_scale(1.0f / map.flux_scale),
           has_directions(map.has_directions()),
+          has_coverage(map.has_coverage()),
+          coverage(map.coverage.data()),
           lights(scene.lights.data()),
           bvh_nodes(bvh.nodes.data()),
           bvh_triangles(bvh.triangles.data()),
@@ -38,6 +41,8 @@ class PhotonEstimator : public SurfaceReader {
           bvh_node_count(uint(bvh.nodes.size())),
           ray_epsilon(scene.ray_epsilon()),
           scene_size(scene.size()),
+          emitters(scene.emitters.data()),
+          shadow_rays(settings.shadow_rays),
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {}
 
     PhotonPlace photon_place(uint i) const { return map_.places[i]; }
@@ -48,14 +53,15 @@ class PhotonEstimator : public SurfaceReader {
 #include "shaders/direct.glsl"
 #include "shaders/gather.glsl"
 
-    /// The estimate at (triangle, barycentrics) seen from direction `to_view` (unit).
-    Gathered estimate(uint triangle, vec2 barycentrics, vec3 to_view) const {
+    /// The estimate at (triangle, barycentrics) seen from direction `to_view` (unit). `seed` picks the points on mesh
+    /// lamps.
+    Gathered estimate(uint triangle, vec2 barycentrics, vec3 to_view, uint seed = 0) const {
         const Surface s = surface_at(triangle, barycentrics);
         const bool back = dot(s.geometric_normal, to_view) < 0;
         const float side = back ? -1.0f : 1.0f;
         const vec3 ng = s.geometric_normal * side, n = s.normal * side;
         Gathered sum = gather_photons(map_.triangle_maps[2 * triangle + (back ? 1 : 0)], s, ng, n, to_view);
-        if (has_direct) add_direct(s, ng, n, to_view, sum);
+        if (has_direct) add_direct(s, ng, n, to_view, seed, sum);
         return sum;
     }
 
@@ -73,12 +79,15 @@ class PhotonEstimator : public SurfaceReader {
     uint neighbours;
     float max_radius;
     float inverse_flux_scale;
-    bool has_directions;
+    bool has_directions, has_coverage;
+    const uint* coverage;
     const Light* lights;
     const BvhNode* bvh_nodes;
     const uint* bvh_triangles;
     uint light_count, bvh_node_count;
     float ray_epsilon, scene_size;
+    const Emitter* emitters;
+    uint shadow_rays;
     bool has_direct;
 };
 

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <unordered_map>
 
+#include "base/parallel.h"
 #include "base/random.h"
 
 namespace lw {
 namespace {
+
+constexpr float gap_in_patches = 0.01f;  // heights further apart than this are two sheets
 
 /// Face of the cube and 3 x 3 sub-bin that a direction points at; axis-aligned normals lie in bin centres.
 uint normal_bin(vec3 n) {
@@ -37,6 +41,52 @@ struct PatchKeyHash {
 
 }  // namespace
 
+namespace {
+
+/// The heights a triangle side takes over the plane of its group.
+struct HeightSpan {
+    uint group, side;
+    float low, high;
+};
+
+/// Splits each group into sheets: a gap in the heights of its triangles parts two of them (the boards of a shelf).
+Patches split_sheets(const Scene& scene, const Patches& groups, float gap) {
+    std::vector<glm::dvec3> normals(groups.count, glm::dvec3(0));
+    std::vector<HeightSpan> spans(groups.of_side.size());
+    const auto corners = [&](size_t side) {
+        const uvec3 c = scene.triangles[side / 2];
+        return std::array<vec3, 3>{scene.positions[c.x], scene.positions[c.y], scene.positions[c.z]};
+    };
+    for (size_t side = 0; side < spans.size(); ++side) {
+        const auto [a, b, c] = corners(side);
+        const glm::dvec3 product(cross(b - a, c - a));
+        normals[groups.of_side[side]] += side % 2 ? -product : product;
+    }
+    for (glm::dvec3& n : normals) n = glm::length(n) > 0 ? glm::normalize(n) : glm::dvec3(0, 1, 0);
+    for (size_t side = 0; side < spans.size(); ++side) {
+        const uint group = groups.of_side[side];
+        const auto [a, b, c] = corners(side);
+        const vec3 n(normals[group]);
+        const float ha = dot(n, a), hb = dot(n, b), hc = dot(n, c);
+        spans[side] = {group, uint(side), std::min({ha, hb, hc}), std::max({ha, hb, hc})};
+    }
+    parallel_sort(spans.begin(), spans.end(), [](const HeightSpan& x, const HeightSpan& y) {
+        return std::tie(x.group, x.low, x.side) < std::tie(y.group, y.low, y.side);
+    });
+    Patches sheets;
+    sheets.of_side.resize(spans.size());
+    float top = 0;
+    for (size_t i = 0; i < spans.size(); ++i) {
+        const bool fresh = i == 0 || spans[i].group != spans[i - 1].group || spans[i].low > top + gap;
+        if (fresh) ++sheets.count;
+        top = fresh ? spans[i].high : std::max(top, spans[i].high);
+        sheets.of_side[spans[i].side] = sheets.count - 1;
+    }
+    return sheets;
+}
+
+}  // namespace
+
 Patches group_triangles(const Scene& scene, float patch_size) {
     Patches patches;
     patches.of_side.resize(2 * scene.triangles.size());
@@ -61,7 +111,7 @@ Patches group_triangles(const Scene& scene, float patch_size) {
             patch = place->second;
         }
     }
-    return patches;
+    return split_sheets(scene, patches, gap_in_patches * patch_size);
 }
 
 namespace {

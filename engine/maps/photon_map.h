@@ -13,8 +13,7 @@ struct BakeSettings {
     float radius = 0;                // m, largest search radius; 0 in the settings means automatic
     float neighbour_angle_deg = 60;  // largest angle between the normals of a photon and a map that refers to it
     uint64_t seed = 1;
-    bool direct_in_photons =
-        false;  // direct light of punctual lamps: from photons as in the paper, or exact by shadow rays
+    bool direct_in_photons = false;  // direct light: from photons as in the paper, or exact by shadow rays
 };
 
 /// References to photons, sorted by map and cell. All record arrays have one entry per reference.
@@ -32,7 +31,10 @@ struct PhotonMap {
     std::vector<uint> fluxes;         // RGB9E5 per reference
     std::vector<uint> directions;     // octahedral direction the photon came from; empty without glossy surfaces
 
+    std::vector<uint> coverage;  // per node of the lattices of all maps, see unpack_coverage()
+
     bool has_directions() const { return !directions.empty(); }
+    bool has_coverage() const { return !coverage.empty(); }
 };
 
 }  // namespace lw

@@ -27,9 +27,8 @@ struct ReferenceInput {
 };
 
 /// The radius of each patch: `largest`, but so small that the photons around a small patch do not outnumber those on
-/// it: the overhang (P r + pi r^2) / A of its rectangle stays below 1.3 `looseness`, with a floor of 0.35 `looseness`
-/// `largest`.
-std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float largest, float looseness);
+/// it: the overhang (P r + pi r^2) / A of its rectangle stays below 1.3, unless the radius is below `floor` metres.
+std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float largest, float floor);
 
 /// A photon belongs to a patch when it lies within the patch's radius of its triangle (of the box around it, when the
 /// patch has several), when its normal is within the angle of the patch's, and when its height over the patch is no

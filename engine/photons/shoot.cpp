@@ -32,10 +32,7 @@ struct Chunk {
 class Shooter {
   public:
     Shooter(const Scene& scene, const RayCaster& caster, const ShootSettings& settings)
-        : caster_(caster), surfaces_(scene), emitters_(scene), aims_(scene.lights.size()), seed_(settings.seed) {
-        for (const Light& light : scene.lights)
-            stores_direct_.push_back(settings.direct_in_photons || light.type == light_mesh);
-    }
+        : caster_(caster), surfaces_(scene), emitters_(scene), aims_(scene.lights.size()), settings_(settings) {}
 
     void aim(uint light, Aim aim) { aims_[light] = std::move(aim); }
 
@@ -54,19 +51,18 @@ class Shooter {
     SurfaceReader surfaces_;
     Emitters emitters_;
     std::vector<Aim> aims_;
-    std::vector<char> stores_direct_;  // per lamp
-    uint64_t seed_;
+    ShootSettings settings_;
 };
 
 std::array<float, 5> Shooter::numbers(uint light, uint64_t index) const {
-    const auto scramble = uint32_t(mix64(seed_ * 0x10001 + light));
+    const auto scramble = uint32_t(mix64(settings_.seed * 0x10001 + light));
     std::array<float, 5> u;
     for (int d = 0; d < 5; ++d) u[size_t(d)] = sobol_owen(uint32_t(index), d, scramble);
     return u;
 }
 
 void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
-    Rng rng(seed_, chunk.light + 1, index);
+    Rng rng(settings_.seed, chunk.light + 1, index);
     std::array<float, 5> u = numbers(chunk.light, index);
     share *= aims_[chunk.light].warp(u);
     const Emission photon = emitters_.emit(chunk.light, u);
@@ -82,7 +78,7 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
         }
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
         const bool back = dot(s.geometric_normal, direction) > 0;
-        if (!surfaces_.is_purely_specular(s) && (path != path_direct || stores_direct_[chunk.light]))
+        if (!surfaces_.is_purely_specular(s) && (path != path_direct || settings_.direct_in_photons))
             chunk.photons.push_back(
                 {s.position, flux, -direction, hit->triangle, pack_origin(chunk.light, path, back)});
         const std::optional<Scatter> next = sample_bsdf(surfaces_, s, -direction, rng);
@@ -144,23 +140,24 @@ std::vector<uint64_t> plan_emission(const Shooter& shooter, const Scene& scene, 
     const size_t count = scene.lights.size();
     std::vector<Chunk> pilots = split_paths(std::vector<uint64_t>(count, pilot_paths), std::vector<uint64_t>(count, 0));
     parallel_for(pilots.size(), [&](size_t i) { shooter.trace(pilots[i], double(pilot_paths)); });
-    std::vector<double> yield(count, 0), useful(count, 0);
+    std::vector<double> yield(count, 0), useful(count, 0), landed(count, 0);
     for (const Chunk& pilot : pilots) {
         yield[pilot.light] += double(pilot.photons.size()) / double(pilot_paths);
+        landed[pilot.light] += pilot.absorbed;
         for (const Photon& p : pilot.photons)
             useful[pilot.light] +=
                 luminance(p.flux * scene.lights[pilot.light].intensity) * (p.path() == path_direct ? 0.05 : 1);
     }
+    if (!std::any_of(landed.begin(), landed.end(), [](double flux) { return flux > 0; }))
+        throw Error(scene.path.filename().string() +
+                    ": no light reaches a surface that can show it; check where the lamps stand and point");
     double sum = 0;
     for (double& flux : useful) sum += flux = std::sqrt(flux);
     const double floor = sum > 0 ? 0.25 * sum / double(count) : 1;
     sum = 0;
     for (size_t light = 0; light < count; ++light)
         sum += useful[light] = yield[light] > 0 ? std::max(useful[light], floor) : 0;
-    if (!(sum > 0))
-        throw Error(scene.path.filename().string() +
-                    ": no light reaches a surface that can show it; check where the lamps stand and point");
-    std::vector<uint64_t> emitted(count, 0);
+    std::vector<uint64_t> emitted(count, pilot_paths);  // a lamp without yield: enough for its energy balance
     for (size_t light = 0; light < count; ++light)
         if (yield[light] > 0)
             emitted[light] = uint64_t(

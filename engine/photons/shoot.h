@@ -9,7 +9,7 @@ namespace lw {
 struct ShootSettings {
     uint64_t photons = 1'000'000;  // to store, within about 1 %
     uint64_t seed = 1;
-    bool direct_in_photons = false;  // store the direct photons of point, spot and directional lamps too
+    bool direct_in_photons = false;  // store the photons that come straight from a lamp too
 };
 
 /// Traces photons of all lamps. Every photon is a function of (seed, lamp, index): the result is the same at any thread

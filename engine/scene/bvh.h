@@ -6,7 +6,7 @@
 
 namespace lw {
 
-/// Empty when the scene has no punctual lamp: then no shadow ray is ever traced.
+/// Empty when no shadow ray is ever traced.
 struct Bvh {
     std::vector<BvhNode> nodes;   // depth first
     std::vector<uint> triangles;  // triangle ids in leaf order

@@ -78,7 +78,7 @@ void add_mesh_light(const std::string& name, const std::vector<size_t>& objects,
             const glm::dvec3 before = facing;
             add_emitter(t, scene, light, moment, facing);
             one_sided += glm::length(facing - before);
-            scene.emitters.push_back(t);
+            scene.emitters.push_back({t, float(one_sided)});
         }
     }
     light.position =

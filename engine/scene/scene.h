@@ -44,7 +44,7 @@ struct Scene {
 
     std::vector<Light> lights;
     std::vector<std::string> light_names;  // unique; per light
-    std::vector<uint> emitters;            // triangle ids of mesh lights, grouped per light
+    std::vector<Emitter> emitters;         // triangles of mesh lights, grouped per light
     std::vector<Camera> cameras;           // at least one
 
     std::array<vec3, 2> bounds{vec3(0), vec3(0)};  // min, max of positions

@@ -85,10 +85,8 @@ struct Releases {
 
 Bvh build_bvh(const Scene& scene) {
     Bvh result;
-    const bool punctual =
-        std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return l.type != light_mesh; });
     std::vector<RTCBuildPrimitive> primitives = primitives_of(scene);
-    if (!punctual || primitives.empty()) return result;
+    if (scene.lights.empty() || primitives.empty()) return result;
     const std::unique_ptr<RTCDeviceTy, Releases> device(rtcNewDevice("threads=1"));
     if (!device) throw Error("Embree: no device could be created");
     const std::unique_ptr<RTCBVHTy, Releases> bvh(rtcNewBVH(device.get()));

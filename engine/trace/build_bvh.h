@@ -5,7 +5,7 @@
 
 namespace lw {
 
-/// Hierarchy over all triangles with positive area, at most 4 per leaf; empty without punctual lamps.
+/// Hierarchy over all triangles with positive area, at most 4 per leaf; empty without lamps.
 /// Throws Error when there is not enough memory. Deterministic.
 Bvh build_bvh(const Scene& scene);
 

@@ -33,18 +33,23 @@ float sample_spot_cosine(const Light& light, float u) {
 
 }  // namespace
 
-Emitters::Emitters(const Scene& scene) : scene_(scene), surfaces_(scene), area_below_(scene.emitters.size()) {
+Emitters::Emitters(const Scene& scene) : scene_(scene), surfaces_(scene) {
     centre_ = 0.5f * (scene.bounds[0] + scene.bounds[1]);
     radius_ = 0.5f * length(scene.bounds[1] - scene.bounds[0]) * 1.001f;
-    for (const Light& light : scene.lights) {
-        double sum = 0;
-        for (uint i = light.first_emitter; i < light.first_emitter + light.emitter_count; ++i) {
-            const uvec3 t = scene.triangles[scene.emitters[i]];
-            const vec3 a = scene.positions[t.x];
-            sum += 0.5 * double(length(cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
-            area_below_[i] = float(sum);
-        }
-    }
+}
+
+float Emitters::area_of(const Light& light) const {
+    return scene_.emitters[light.first_emitter + light.emitter_count - 1].area_below;
+}
+
+Surface Emitters::point_of(const Light& light, float u, float v) const {
+    const auto first = scene_.emitters.begin() + light.first_emitter, last = first + light.emitter_count;
+    const float wanted = u * area_of(light);
+    const auto below = [](float area, const Emitter& e) { return area < e.area_below; };
+    const auto chosen = std::min(std::upper_bound(first, last, wanted, below), last - 1);
+    const float start = chosen == first ? 0.0f : (chosen - 1)->area_below;
+    const float within = clamp((wanted - start) / std::max(chosen->area_below - start, 1e-30f), 0.0f, 0.99999994f);
+    return surfaces_.surface_at(chosen->triangle, sample_triangle(within, v));
 }
 
 float Emitters::unit_flux(uint index) const {
@@ -73,18 +78,12 @@ Emission Emitters::emit(uint index, const std::array<float, 5>& u) const {
         const mat3 frame = frame_around(light.direction);
         return {centre_ + frame * vec3(disc.x, disc.y, -radius_), vec3(0), light.direction, flux};
     }
-    const auto first = area_below_.begin() + light.first_emitter, last = first + light.emitter_count;
-    const float total = *(last - 1);
-    const auto chosen = std::min(std::upper_bound(first, last, u[0] * total), last - 1);
-    const float below = chosen == first ? 0.0f : *(chosen - 1);
-    const float within = clamp((u[0] * total - below) / std::max(*chosen - below, 1e-30f), 0.0f, 0.99999994f);
-    const uint triangle = scene_.emitters[size_t(chosen - area_below_.begin())];
-    const Surface s = surfaces_.surface_at(triangle, sample_triangle(within, u[1]));
+    const Surface s = point_of(light, u[0], u[1]);
     const bool back = (s.flags & material_double_sided) && u[4] >= 0.5f;
     const float sides = s.flags & material_double_sided ? 2.0f : 1.0f;
     const vec3 n = back ? -s.geometric_normal : s.geometric_normal;
     const vec3 relative = per_intensity(s.emissive, light.intensity);
-    return {s.position, n, frame_around(n) * sample_cosine(u[2], u[3]), relative * (lw_pi * total * sides)};
+    return {s.position, n, frame_around(n) * sample_cosine(u[2], u[3]), relative * (lw_pi * area_of(light) * sides)};
 }
 
 std::optional<Incident> Emitters::arrive(uint index, vec3 point, float u, float v) const {
@@ -100,13 +99,7 @@ std::optional<Incident> Emitters::arrive(uint index, vec3 point, float u, float 
         if (falloff <= 0) return std::nullopt;
         return Incident{to_light, light.position, vec3(falloff / d2), 0};
     }
-    const auto first = area_below_.begin() + light.first_emitter, last = first + light.emitter_count;
-    const float total = *(last - 1);
-    const auto chosen = std::min(std::upper_bound(first, last, u * total), last - 1);
-    const float below = chosen == first ? 0.0f : *(chosen - 1);
-    const float within = clamp((u * total - below) / std::max(*chosen - below, 1e-30f), 0.0f, 0.99999994f);
-    const uint triangle = scene_.emitters[size_t(chosen - area_below_.begin())];
-    const Surface s = surfaces_.surface_at(triangle, sample_triangle(within, v));
+    const Surface s = point_of(light, u, v);
     const vec3 path = s.position - point;
     const float distance = length(path);
     if (!(distance > 0)) return std::nullopt;
@@ -125,9 +118,8 @@ vec3 Emitters::radiance(const Surface& s, vec3 to_view) const {
 
 float Emitters::arrive_pdf(const Surface& s, float distance, vec3 to_light) const {
     const Light& light = scene_.lights[size_t(s.light)];
-    const float total = area_below_[light.first_emitter + light.emitter_count - 1];
     const float cosine = abs(dot(s.geometric_normal, to_light));
-    return cosine > 1e-6f ? distance * distance / (cosine * total) : 0.0f;
+    return cosine > 1e-6f ? distance * distance / (cosine * area_of(light)) : 0.0f;
 }
 
 std::vector<vec3> light_weights(const Scene& scene, const std::vector<float>& factors) {

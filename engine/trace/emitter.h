@@ -50,7 +50,10 @@ class Emitters {
   private:
     const Scene& scene_;
     SurfaceReader surfaces_;
-    std::vector<float> area_below_;  // cumulative area of `emitters`, restarting per lamp, one side
+    /// The point at (u, v) of a mesh lamp, uniform by area.
+    Surface point_of(const Light& light, float u, float v) const;
+    float area_of(const Light& light) const;  // one side, m2
+
     vec3 centre_;
     float radius_;  // of the sphere around the scene
 };

@@ -23,7 +23,7 @@ class MapFile : public testing::Test {
         : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/cube.gltf")),
           path(std::filesystem::temp_directory_path() / ("lw_map_" + std::to_string(getpid()) + ".pmap")) {
         const RayCaster caster(scene);
-        map = build_photon_map(scene, shoot_photons(scene, caster, {500, 1}), {500, 0, 60, 1});
+        map = build_photon_map(scene, caster, shoot_photons(scene, caster, {500, 1}), {500, 0, 60, 1});
         save_photon_map(path, map);
         std::ifstream in(path, std::ios::binary);
         bytes.assign(std::istreambuf_iterator<char>(in), {});

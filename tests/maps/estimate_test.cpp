@@ -26,7 +26,7 @@ struct Baked {
         : scene(load_gltf(file_in_data(name))),
           caster(scene),
           photons(shoot_photons(scene, caster, {count, 1, true})),
-          map(build_photon_map(scene, photons, {count, 0, 60, 1, true})),
+          map(build_photon_map(scene, caster, photons, {count, 0, 60, 1, true})),
           weights(light_weights(scene, {})) {}
     Scene scene;
     RayCaster caster;

@@ -1,0 +1,159 @@
+#include "maps/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "scene/surface.h"
+#include "trace/sampling.h"
+
+namespace lw {
+namespace {
+
+constexpr int rays_around = 4;
+using Levels = std::array<float, coverage_levels>;
+
+/// True when every one of a few rays into the hemisphere meets a surface closer than `clearance`.
+bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance, Rng& rng) {
+    const mat3 frame = frame_around(normal);
+    const vec3 origin = caster.offset(point, normal);
+    for (int i = 0; i < rays_around; ++i) {
+        const float u = (float(i) + rng.next()) / rays_around;
+        if (!caster.nearest(origin, frame * sample_cosine(u, rng.next()), clearance)) return false;
+    }
+    return true;
+}
+
+/// The samples that belong to one map, sorted into square cells of half the radius in the frame of its grid.
+class MapSamples {
+  public:
+    MapSamples(const SurfaceGrid& grid, const std::vector<Photon>& samples, const uint* first, const uint* last)
+        : cell_(grid.radius * 0.5f), radius_(grid.radius) {
+        vec2 high(-1e30f);
+        low_ = vec2(1e30f);
+        std::vector<vec4> unsorted;
+        for (const uint* i = first; i != last; ++i) {
+            const vec3 offset = samples[*i].position - grid.origin;
+            const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+            unsorted.emplace_back(local, samples[*i].flux.x);
+            low_ = min(low_, vec2(local.x, local.y)), high = max(high, vec2(local.x, local.y));
+        }
+        if (unsorted.empty()) return;
+        columns_ = int((high.x - low_.x) / cell_) + 1;
+        rows_ = int((high.y - low_.y) / cell_) + 1;
+        starts_.assign(size_t(columns_) * size_t(rows_) + 1, 0);
+        for (const vec4& s : unsorted) ++starts_[cell_of(s) + 1];
+        for (size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
+        std::vector<uint> next(starts_.begin(), starts_.end() - 1);
+        sorted_.resize(unsorted.size());
+        for (const vec4& s : unsorted) sorted_[next[cell_of(s)]++] = s;
+    }
+
+    /// Sum of area x kernel at `local`, for the kernels of all levels.
+    Levels sum_kernels(vec3 local, float max_radius) const {
+        Levels sums{};
+        const int x0 = std::max(column(local.x - radius_), 0), x1 = std::min(column(local.x + radius_), columns_ - 1);
+        const int y0 = std::max(row(local.y - radius_), 0), y1 = std::min(row(local.y + radius_), rows_ - 1);
+        for (int y = y0; y <= y1 && x0 <= x1; ++y) {
+            const size_t line = size_t(y) * size_t(columns_);
+            for (uint i = starts_[line + size_t(x0)]; i < starts_[line + size_t(x1) + 1]; ++i)
+                add_kernels(sorted_[i], local, max_radius, sums);
+        }
+        return sums;
+    }
+
+  private:
+    int column(float u) const { return int(std::floor((u - low_.x) / cell_)); }
+    int row(float v) const { return int(std::floor((v - low_.y) / cell_)); }
+    size_t cell_of(const vec4& s) const {
+        return size_t(std::min(row(s.y), rows_ - 1)) * size_t(columns_) + size_t(std::min(column(s.x), columns_ - 1));
+    }
+
+    void add_kernels(const vec4& sample, vec3 local, float max_radius, Levels& sums) const {
+        const vec3 d = vec3(sample) - local;
+        const float d2 = dot(d, d);
+        if (d2 >= radius_ * radius_ || !on_same_surface(d.z, d2, max_radius)) return;
+        for (uint level = coverage_levels; level-- > 0;) {
+            const float r = radius_ * float(level + 1) / float(coverage_levels), r2 = r * r;
+            if (d2 >= r2) break;
+            sums[level] += sample.w * 2 / (lw_pi * r2) * (1 - d2 / r2);
+        }
+    }
+
+    float cell_, radius_;
+    vec2 low_{0};
+    int columns_ = 0, rows_ = 0;
+    std::vector<uint> starts_;
+    std::vector<vec4> sorted_;  // u, v, h, area
+};
+
+uint pack_coverage(const Levels& levels) {
+    uint bits = 0;
+    for (uint i = 0; i < coverage_levels; ++i)
+        bits |= uint(clamp(std::round(levels[i] * coverage_unit), 0.0f, 255.0f)) << (8 * i);
+    return bits;
+}
+
+}  // namespace
+
+std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, double area, float clearance) {
+    constexpr size_t chunk = 1024;
+    std::vector<uint> counts(scene.triangles.size());
+    std::vector<float> shares(scene.triangles.size());
+    double waiting = 0.5;
+    for (size_t t = 0; t < counts.size(); ++t) {
+        const uvec3 c = scene.triangles[t];
+        const vec3 a = scene.positions[c.x];
+        const double size = 0.5 * double(length(cross(scene.positions[c.y] - a, scene.positions[c.z] - a)));
+        waiting += size / area;
+        counts[t] = uint(waiting);
+        shares[t] = float(area);
+        waiting -= counts[t];
+    }
+    std::vector<std::vector<Photon>> chunks((counts.size() + chunk - 1) / chunk);
+    const SurfaceReader surfaces(scene);
+    parallel_for(chunks.size(), [&](size_t k) {
+        for (size_t t = k * chunk; t < std::min(counts.size(), (k + 1) * chunk); ++t)
+            for (uint i = 0; i < counts[t]; ++i) {
+                const auto scramble = uint32_t(mix64(t));
+                const vec2 place = sample_triangle(sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
+                const Surface s = surfaces.surface_at(uint(t), place);
+                for (uint side = 0; side < 2; ++side) {
+                    const vec3 n = side ? -s.geometric_normal : s.geometric_normal;
+                    Rng rng(1, 2 * t + side, i);
+                    if (is_buried(caster, s.position, n, clearance, rng)) continue;
+                    chunks[k].push_back({s.position, vec3(shares[t]), n, uint(t), pack_origin(0, path_direct, side)});
+                }
+            }
+    });
+    std::vector<Photon> samples;
+    for (const auto& part : chunks) samples.insert(samples.end(), part.begin(), part.end());
+    return samples;
+}
+
+std::vector<uint> find_coverage(const Scene& scene, const PhotonMap& map, const std::vector<NodePoint>& nodes,
+                                const std::vector<Photon>& samples, const References& references,
+                                const std::vector<uint>& patch_of_map) {
+    std::vector<uint> coverage(nodes.size(), pack_coverage({1, 1, 1, 1}));
+    const SurfaceReader surfaces(scene);
+    parallel_for(map.grids.size(), [&](size_t m) {
+        const SurfaceGrid& grid = map.grids[m];
+        const SurfaceLattice& lattice = grid.lattice;
+        const uint* all = references.photons.data();
+        const MapSamples own(grid, samples, all + references.starts[patch_of_map[m]],
+                             all + references.starts[patch_of_map[m] + 1]);
+        for (uint n = 0; n < lattice.columns * lattice.rows; ++n) {
+            const NodePoint& node = nodes[lattice.first_node + n];
+            if (!node.exists()) continue;
+            const vec3 offset = surfaces.surface_at(node.triangle, node.barycentrics).position - grid.origin;
+            const vec2 at = lattice.low + vec2(float(n % lattice.columns), float(n / lattice.columns)) * lattice.step;
+            coverage[lattice.first_node + n] =
+                pack_coverage(own.sum_kernels(vec3(at, dot(offset, grid.normal)), map.settings.radius));
+        }
+    });
+    return coverage;
+}
+
+}  // namespace lw

@@ -1,0 +1,102 @@
+#include "maps/lattice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "trace/ray_caster.h"
+
+namespace lw {
+namespace {
+
+constexpr float most_nodes_across = 16384;
+
+/// The triangle sides of each map: those of map m are sides[starts[m]] .. sides[starts[m + 1] - 1].
+struct SidesOfMaps {
+    explicit SidesOfMaps(const PhotonMap& map) : starts(map.grids.size() + 1, 0) {
+        for (uint m : map.triangle_maps)
+            if (m != no_map) ++starts[m + 1];
+        for (size_t m = 1; m < starts.size(); ++m) starts[m] += starts[m - 1];
+        sides.resize(starts.back());
+        std::vector<uint> next(starts.begin(), starts.end() - 1);
+        for (size_t side = 0; side < map.triangle_maps.size(); ++side)
+            if (map.triangle_maps[side] != no_map) sides[next[map.triangle_maps[side]]++] = uint(side);
+    }
+    std::vector<uint> starts, sides;
+};
+
+SurfaceLattice fit_lattice(const PatchShape& shape, const SurfaceGrid& grid, float spacing) {
+    SurfaceLattice lattice{};
+    const vec3 offset = shape.anchor - grid.origin, extent = shape.high - shape.low;
+    lattice.low = vec2(dot(offset, grid.u_axis) + shape.low.x, dot(offset, grid.v_axis) + shape.low.y);
+    const auto count = [&](float size) { return uint(clamp(std::ceil(size / spacing), 1.0f, most_nodes_across)) + 1; };
+    lattice.columns = count(extent.x);
+    lattice.rows = count(extent.y);
+    lattice.step = max(vec2(extent.x, extent.y) / vec2(float(lattice.columns - 1), float(lattice.rows - 1)),
+                       vec2(1e-4f * spacing));
+    return lattice;
+}
+
+/// Weights of the second and third corner of the point of triangle abc (in 2D) nearest to the origin.
+vec2 nearest_barycentrics(vec2 a, vec2 b, vec2 c, vec2& nearest) {
+    const vec3 p = closest_point_on_triangle(vec3(0), vec3(a, 0), vec3(b, 0), vec3(c, 0));
+    nearest = vec2(p.x, p.y);
+    const vec2 ab = b - a, ac = c - a, ap = nearest - a;
+    const float doubled = ab.x * ac.y - ab.y * ac.x;
+    if (std::abs(doubled) < 1e-20f) return vec2(0);
+    const float v = (ap.x * ac.y - ap.y * ac.x) / doubled, w = (ab.x * ap.y - ab.y * ap.x) / doubled;
+    return clamp(vec2(v, w), vec2(0), vec2(1));
+}
+
+/// Offers one triangle side to the nodes around it.
+void place_nodes(const SurfaceLattice& lattice, const std::array<vec2, 3>& corners, uint triangle,
+                 std::vector<NodePoint>& nodes) {
+    const vec2 low = min(corners[0], min(corners[1], corners[2])), high = max(corners[0], max(corners[1], corners[2]));
+    const auto node = [](float value, uint count) { return uint(clamp(value, 0.0f, float(count - 1))); };
+    const uint x0 = node(std::floor(low.x / lattice.step.x), lattice.columns),
+               x1 = node(std::ceil(high.x / lattice.step.x), lattice.columns),
+               y0 = node(std::floor(low.y / lattice.step.y), lattice.rows),
+               y1 = node(std::ceil(high.y / lattice.step.y), lattice.rows);
+    for (uint y = y0; y <= y1; ++y)
+        for (uint x = x0; x <= x1; ++x) {
+            NodePoint& point = nodes[lattice.first_node + y * lattice.columns + x];
+            if (point.distance2 == 0) continue;
+            const vec2 at = vec2(float(x), float(y)) * lattice.step;
+            vec2 nearest;
+            const vec2 weights = nearest_barycentrics(corners[0] - at, corners[1] - at, corners[2] - at, nearest);
+            const float distance2 = dot(nearest, nearest);
+            if (distance2 < point.distance2) point = {triangle, weights, distance2};
+        }
+}
+
+}  // namespace
+
+std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchShape>& shapes, float spacing,
+                                    PhotonMap& map) {
+    uint count = 0;
+    for (size_t m = 0; m < map.grids.size(); ++m) {
+        SurfaceLattice& lattice = map.grids[m].lattice;
+        lattice = fit_lattice(shapes[m], map.grids[m], spacing);
+        lattice.first_node = count;
+        count += lattice.columns * lattice.rows;
+    }
+    std::vector<NodePoint> nodes(count);
+    const SidesOfMaps sides(map);
+    parallel_for(map.grids.size(), [&](size_t m) {
+        const SurfaceGrid& grid = map.grids[m];
+        const SurfaceLattice& lattice = grid.lattice;
+        for (uint i = sides.starts[m]; i < sides.starts[m + 1]; ++i) {
+            const uint triangle = sides.sides[i] / 2;
+            std::array<vec2, 3> corners;
+            for (int c = 0; c < 3; ++c) {
+                const vec3 offset = scene.positions[scene.triangles[triangle][c]] - grid.origin;
+                corners[size_t(c)] = vec2(dot(offset, grid.u_axis), dot(offset, grid.v_axis)) - lattice.low;
+            }
+            place_nodes(lattice, corners, triangle, nodes);
+        }
+    });
+    return nodes;
+}
+
+}  // namespace lw
