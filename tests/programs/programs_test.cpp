@@ -273,6 +273,8 @@ struct DoubledLamp {
     const char *scene, *lamp, *strength, *doubled;
 };
 
+void PrintTo(const DoubledLamp& lamp, std::ostream* out) { *out << lamp.scene; }
+
 class Doubling : public testing::TestWithParam<DoubledLamp> {};
 
 INSTANTIATE_TEST_SUITE_P(Lamps, Doubling,
