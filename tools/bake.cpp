@@ -2,13 +2,17 @@
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "file/map_file.h"
+#include "image/replaced_file.h"
 #include "maps/build.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
@@ -37,13 +41,19 @@ class PhaseClock {
     Clock::time_point last_ = Clock::now();
 };
 
-float parse_radius(const std::string& text) {
-    if (text == "auto") return 0;
-    size_t used = 0;
-    const float radius = std::stof(text, &used);
-    if (used != text.size() || !(radius > 0))
-        throw lw::Error("--radius " + text + ": give a positive number of metres, or auto");
-    return radius;
+/// Metres, 0 for auto, nothing when the text is neither.
+std::optional<float> parse_radius(const std::string& text) {
+    if (text == "auto") return 0.0f;
+    float radius = 0;
+    const char* end = text.data() + text.size();
+    const std::from_chars_result result = std::from_chars(text.data(), end, radius);
+    const bool valid = result.ec == std::errc() && result.ptr == end && radius > 0 && std::isfinite(radius);
+    return valid ? std::optional(radius) : std::nullopt;
+}
+
+/// What is wrong with the text of --radius, or "".
+std::string misuse_of_radius(const std::string& text) {
+    return parse_radius(text) ? "" : "give a positive number of metres, or auto";
 }
 
 void print_lights(const lw::Scene& scene, const lw::Photons& photons) {
@@ -73,11 +83,14 @@ void print_map(const lw::PhotonMap& map, size_t triangles) {
 
 void bake(const Options& options) {
     const lw::ThreadLimit limit(options.threads);
-    lw::BakeSettings settings{options.photons, parse_radius(options.radius), options.neighbour_angle_deg, options.seed,
+    lw::BakeSettings settings{options.photons, *parse_radius(options.radius), options.neighbour_angle_deg, options.seed,
                               options.direct == "photons"};
+    const std::filesystem::path output =
+        options.output.empty() ? lw::default_map_path(options.scene) : std::filesystem::path(options.output);
     PhaseClock clock;
     const lw::Scene scene = lw::load_gltf(options.scene);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    lw::check_can_create(output);
     clock.finish("load");
     const lw::RayCaster caster(scene);
     clock.finish("hierarchy");
@@ -86,8 +99,7 @@ void bake(const Options& options) {
     clock.finish("trace");
     const lw::PhotonMap map = lw::build_photon_map(scene, caster, photons, settings);
     clock.finish("maps");
-    const std::filesystem::path output =
-        options.output.empty() ? lw::default_map_path(options.scene) : std::filesystem::path(options.output);
+    lw::check_interrupt();
     lw::save_photon_map(output, map);
     clock.finish("write");
     print_lights(scene, photons);
@@ -105,7 +117,9 @@ int main(int argc, char** argv) {
     app.add_option("--photons", options.photons, "photons to store")
         ->capture_default_str()
         ->check(CLI::Range(uint64_t(1), uint64_t(2'000'000'000)));
-    app.add_option("--radius", options.radius, "largest search radius in metres, or auto")->capture_default_str();
+    app.add_option("--radius", options.radius, "largest search radius in metres, or auto")
+        ->capture_default_str()
+        ->check(misuse_of_radius);
     app.add_option("--neighbour-angle", options.neighbour_angle_deg,
                    "largest angle in degrees between the normals of a photon and a map")
         ->capture_default_str()

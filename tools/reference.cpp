@@ -1,11 +1,13 @@
 // lumenwalk-reference: the unbiased path-traced picture that the photon maps are measured against.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "image/exr.h"
+#include "image/replaced_file.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "trace/reference.h"
@@ -19,11 +21,21 @@ struct Options {
     lw::ReferenceSettings settings;
 };
 
-void parse_size(const std::string& text, int& width, int& height) {
+/// Whether the text is WIDTHxHEIGHT with both from 1 to 16384.
+bool parse_size(const std::string& text, int& width, int& height) {
     char end = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 || height < 1 || width > 16384 ||
-        height > 16384)
-        throw lw::Error("--size " + text + ": write WIDTHxHEIGHT in pixels, at most 16384 each");
+    return std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) == 2 && width > 0 && height > 0 &&
+           width <= 16384 && height <= 16384;
+}
+
+/// What is wrong with the command line, or "".
+std::string misuse_of(const Options& options) {
+    int width = 0, height = 0;
+    if (std::filesystem::path(options.output).extension() != ".exr") return "--output: must end in .exr";
+    if (!parse_size(options.size, width, height)) return "--size: must be WxH in pixels, at most 16384 each";
+    for (const std::string& power : options.powers)
+        if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
+    return "";
 }
 
 void render(Options& options) {
@@ -33,6 +45,7 @@ void render(Options& options) {
         options.settings.samples = options.settings.seconds > 0 || options.settings.error > 0 ? 1u << 20 : 256;
     const lw::Scene scene = lw::load_gltf(options.scene);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    lw::check_can_create(options.output);
     const lw::RayCaster caster(scene);
     const std::vector<lw::vec3> weights = lw::light_weights(scene, lw::parse_powers(scene, options.powers));
     const lw::Reference reference =
@@ -59,7 +72,8 @@ int main(int argc, char** argv) {
     app.add_option("--time", options.settings.seconds, "stop after this many seconds");
     app.add_option("--error", options.settings.error,
                    "stop at this relative standard error of the picture, such as 0.01");
-    app.add_option("--power", options.powers, "LIGHT=FACTOR, scales a lamp; repeatable");
+    app.add_option("--power", options.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
+        ->allow_extra_args(false);
     app.add_flag("!--no-illuminance", options.settings.illuminance,
                  "leave out the illuminance channel (half the time)");
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
@@ -68,6 +82,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0u, 4096u));
     try {
         app.parse(argc, argv);
+        const std::string misuse = misuse_of(options);
+        if (!misuse.empty()) throw CLI::ValidationError(misuse);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) ? 2 : 0;
     }

@@ -9,6 +9,7 @@
 #include "gather/renderer.h"
 #include "image/exr.h"
 #include "image/png.h"
+#include "image/replaced_file.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "trace/build_bvh.h"
@@ -30,7 +31,8 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("-o,--output", o.output, "picture: .exr (cd/m2, lux, m) or .png (exposed, 8 bits)");
     app.add_option("--camera", o.camera, "name of a camera of the scene; default: the first");
     app.add_option("--size", o.size, "pixels as WxH; default: 1280 wide with the aspect of the camera");
-    app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated");
+    app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--neighbours", o.neighbours, "photons per estimate")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
@@ -110,6 +112,7 @@ void take_screenshot(const Options& o) {
     const std::vector<float> factors = lw::parse_powers(scene, o.powers);
     const lw::PhotonMap map =
         lw::load_photon_map(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map), scene);
+    lw::check_can_create(o.output);
     const lw::Device device({o.device, o.validation});
     const lw::Bvh bvh = map.settings.direct_in_photons ? lw::Bvh{} : lw::build_bvh(scene);
     lw::Resident resident(device, scene, map, bvh);

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <system_error>
 
 #include "base/error.h"
@@ -13,6 +14,8 @@ namespace lw {
 class ReplacedFile {
   public:
     explicit ReplacedFile(const std::filesystem::path& path) : path_(path), partial_(path.string() + ".partial") {
+        std::error_code ignored;
+        if (std::filesystem::is_directory(path_, ignored)) throw Error(path_.string() + ": is a folder, not a file");
         stream_.open(partial_, std::ios::binary | std::ios::trunc);
         if (!stream_) throw Error(path_.string() + ": cannot be created");
     }
@@ -42,5 +45,8 @@ class ReplacedFile {
     std::ofstream stream_;
     bool committed_ = false;
 };
+
+/// Throws what ReplacedFile would throw for `path`, before long work whose result shall lie there. Leaves no trace.
+inline void check_can_create(const std::filesystem::path& path) { const ReplacedFile unused(path); }
 
 }  // namespace lw

@@ -37,18 +37,18 @@ struct Baked {
 
 bool same_bytes(const PhotonMap& a, const PhotonMap& b) {
     const auto same = [](const auto& x, const auto& y) {
-        return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0;
+        return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0);
     };
     return same(a.places, b.places) && same(a.fluxes, b.fluxes) && same(a.directions, b.directions) &&
            same(a.grids, b.grids) && same(a.cell_starts, b.cell_starts) && same(a.triangle_maps, b.triangle_maps);
 }
 
 TEST(Bake, GivesTheSameBytesAtOneAndTwoThreads) {
-    const ThreadLimit one(1);
-    const Baked first("cornell.gltf", 50000);
-    const ThreadLimit two(2);
-    const Baked second("cornell.gltf", 50000);
-    EXPECT_TRUE(same_bytes(first.map, second.map));
+    const auto map_of = [](unsigned threads) {
+        const ThreadLimit limit(threads);  // one at a time: of several the smallest holds
+        return Baked("cornell.gltf", 50000).map;
+    };
+    EXPECT_TRUE(same_bytes(map_of(1), map_of(2)));
 }
 
 TEST(Bake, AnotherSeedGivesOtherPhotons) {
