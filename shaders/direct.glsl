@@ -1,7 +1,7 @@
 // Exact direct light by shadow rays through the BVH: one ray for a point, spot or directional lamp, `shadow_rays` for an
 // emissive mesh. One text for C++ and GLSL. The including scope provides what surface.glsl and bsdf.glsl need, and the
-// arrays bvh_nodes, bvh_triangles, lights, emitters, the function light_weight and the constants has_alpha,
-// has_transmission, light_count, shadow_rays, ray_epsilon, scene_size.
+// arrays bvh_nodes, bvh_triangles, emitters, grids, visible_lamps, the functions light_at and light_weight and the constants has_alpha,
+// has_transmission, light_count, shadow_rays, ray_epsilon, scene_size, has_visible_lamps; needs gather.glsl.
 
 /// True when a triangle is crossed by origin + t direction, 0 < t < far (Moeller & Trumbore 1997, edges included).
 bool crosses_triangle(uint triangle, vec3 origin, vec3 direction, float far, LW_INOUT(vec2) barycentrics) LW_MEMBER {
@@ -67,22 +67,22 @@ vec3 shadow_ray(vec3 origin, vec3 direction, float far) LW_MEMBER {
 }
 
 /// Adds light arriving along unit `to_light` with irradiance `incoming` on a plane facing it, as far as no surface
-/// within `far` metres is in the way.
+/// within `far` metres is in the way; far = 0: none is, no ray is traced.
 void add_incident(vec3 incoming, vec3 to_light, float far, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                   LW_INOUT(Gathered) sum) LW_MEMBER {
     float cos_geometric = dot(n_geometric, to_light);
     if (cos_geometric <= 0.0f || max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) return;
-    incoming *= shadow_ray(s.position + n_geometric * ray_epsilon, to_light, far - 2.0f * ray_epsilon);
+    if (far > 0.0f) incoming *= shadow_ray(s.position + n_geometric * ray_epsilon, to_light, far - 2.0f * ray_epsilon);
     if (max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) return;
     sum.irradiance += incoming * cos_geometric;
     sum.radiance += incoming * max(dot(n_shading, to_light), 0.0f) * eval_brdf(s, n_shading, to_view, to_light, false);
 }
 
 /// Point, spot or directional lamp; falloff as KHR_lights_punctual.
-void add_punctual(Light lamp, vec3 weight, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
+void add_punctual(Light lamp, vec3 weight, bool open, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                   LW_INOUT(Gathered) sum) LW_MEMBER {
     if (lamp.type == light_directional) {
-        add_incident(weight, -lamp.direction, scene_size, s, n_geometric, n_shading, to_view, sum);
+        add_incident(weight, -lamp.direction, open ? 0.0f : scene_size, s, n_geometric, n_shading, to_view, sum);
         return;
     }
     vec3 path = lamp.position - s.position;
@@ -96,7 +96,7 @@ void add_punctual(Light lamp, vec3 weight, Surface s, vec3 n_geometric, vec3 n_s
         float t = clamp((-dot(to_light, lamp.direction) - lamp.cos_outer) / width, 0.0f, 1.0f);
         weight *= t * t;
     }
-    add_incident(weight, to_light, far, s, n_geometric, n_shading, to_view, sum);
+    add_incident(weight, to_light, open ? 0.0f : far, s, n_geometric, n_shading, to_view, sum);
 }
 
 /// The triangle of a mesh lamp in which a share `u` of its area ends, and how far into it.
@@ -119,7 +119,7 @@ uint pick_emitter(Light lamp, float u, LW_INOUT(float) within) LW_MEMBER {
 }
 
 /// One point of a mesh lamp, uniform by area, standing for a `share` of it: E = L A cos(theta) cos(theta') / d^2.
-void add_mesh_point(Light lamp, vec3 weight, vec2 u, float share, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
+void add_mesh_point(Light lamp, vec3 weight, vec2 u, float share, bool open, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                     LW_INOUT(Gathered) sum) LW_MEMBER {
     float within = 0.0f;
     uint triangle = pick_emitter(lamp, u.x, within);
@@ -135,7 +135,7 @@ void add_mesh_point(Light lamp, vec3 weight, vec2 u, float share, Surface s, vec
     if (cos_emitted <= 0.0f) return;
     float area = emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below;
     vec3 emitted = e.emissive / max(lamp.intensity, vec3(1e-20f));
-    add_incident(weight * emitted * (share * area * cos_emitted / d2), to_light, far, s, n_geometric, n_shading, to_view, sum);
+    add_incident(weight * emitted * (share * area * cos_emitted / d2), to_light, open ? 0.0f : far, s, n_geometric, n_shading, to_view, sum);
 }
 
 uint hash_uint(uint x) LW_MEMBER {  // Wellons 2018, "lowbias32"
@@ -146,22 +146,38 @@ uint hash_uint(uint x) LW_MEMBER {  // Wellons 2018, "lowbias32"
     return x ^ (x >> 16);
 }
 
-/// Adds the direct light of all lamps to what the photons say. `seed` shifts the points on mesh lamps (Cranley &
-/// Patterson 1976) of the R2 sequence (Roberts 2018).
-void add_direct(Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed, LW_INOUT(Gathered) sum) LW_MEMBER {
+/// What is known of lamps 16 `group` to 16 `group` + 15 around a point of a map, two bits each.
+uint visibility_around(uint map, vec3 position, uint group) LW_MEMBER {
+    if (!has_visible_lamps || map == no_map) return 0u;
+    SurfaceGrid grid = grids[map];
+    vec2 f = vec2(0.0f);
+    uint words = visibility_words(light_count);
+    uint node = cell_node(grid.lattice, position_in_grid(grid, position), f) * words + group;
+    uint row = grid.lattice.columns * words;
+    return visible_lamps[node] | visible_lamps[node + words] | visible_lamps[node + row] | visible_lamps[node + row + words];
+}
+
+/// Adds the direct light of all lamps at a point of `map` to what the photons say. `seed` shifts the points on mesh
+/// lamps (Cranley & Patterson 1976) of the R2 sequence (Roberts 2018).
+void add_direct(uint map, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed, LW_INOUT(Gathered) sum) LW_MEMBER {
+    uint around = 0u;
     for (uint i = 0u; i < light_count; ++i) {
-        Light lamp = lights[i];
+        if (visibility_shift(i) == 0u) around = visibility_around(map, s.position, visibility_word(i));
+        uint seen = (around >> visibility_shift(i)) & (some_visible | some_hidden);
+        if (seen == some_hidden) continue;
+        bool open = seen == some_visible;
+        Light lamp = light_at(i);
         vec3 weight = light_weight(i);
         if (max(weight.x, max(weight.y, weight.z)) <= 0.0f) continue;
         if (lamp.type != light_mesh) {
-            add_punctual(lamp, weight, s, n_geometric, n_shading, to_view, sum);
+            add_punctual(lamp, weight, open, s, n_geometric, n_shading, to_view, sum);
             continue;
         }
         uint random = hash_uint(seed + hash_uint(i));
         vec2 shift = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
         for (uint j = 0u; j < shadow_rays; ++j) {
             vec2 u = fract(shift + float(j) * vec2(0.754877666f, 0.569840291f));
-            add_mesh_point(lamp, weight, u, 1.0f / float(shadow_rays), s, n_geometric, n_shading, to_view, sum);
+            add_mesh_point(lamp, weight, u, 1.0f / float(shadow_rays), open, s, n_geometric, n_shading, to_view, sum);
         }
     }
 }

@@ -21,18 +21,18 @@ LW_CONST uint binding_objects = 8u;
 LW_CONST uint binding_materials = 9u;
 LW_CONST uint binding_textures = 10u;
 LW_CONST uint binding_texels = 11u;
-LW_CONST uint binding_light_states = 12u;
+LW_CONST uint binding_lamps = 12u;
 LW_CONST uint binding_triangle_maps = 13u;
 LW_CONST uint binding_grids = 14u;
 LW_CONST uint binding_cell_starts = 15u;
 LW_CONST uint binding_places = 16u;
 LW_CONST uint binding_fluxes = 17u;
 LW_CONST uint binding_directions = 18u;
-LW_CONST uint binding_lights = 19u;
-LW_CONST uint binding_bvh_nodes = 20u;
-LW_CONST uint binding_bvh_triangles = 21u;
-LW_CONST uint binding_coverage = 22u;
-LW_CONST uint binding_emitters = 23u;
+LW_CONST uint binding_bvh_nodes = 19u;
+LW_CONST uint binding_bvh_triangles = 20u;
+LW_CONST uint binding_coverage = 21u;
+LW_CONST uint binding_emitters = 22u;
+LW_CONST uint binding_visible_lamps = 23u;
 LW_CONST uint scene_binding_count = 24u;
 
 // Photon records larger than maxStorageBufferRange are split into chunks of 2^shift records, one descriptor each.
@@ -61,12 +61,14 @@ LW_CONST uint constant_gather_mode = 12u;
 LW_CONST uint constant_heap_size = 13u;
 LW_CONST uint constant_has_direct = 14u;
 LW_CONST uint constant_has_coverage = 15u;
-LW_CONST uint constant_count = 16u;
+LW_CONST uint constant_has_visible_lamps = 16u;
+LW_CONST uint constant_count = 17u;
 
 LW_CONST uint no_triangle = 0xffffffffu;
 
 /// What the user can dim: photons of the light count `weight` (intensity x factor), its own glow `factor`.
-struct LightState {
+struct Lamp {
+    Light light;
     vec3 weight;
     float factor;
 };
@@ -101,7 +103,7 @@ struct Screen {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LightState) == 16 && sizeof(Screen) == 12);
+static_assert(sizeof(Lamp) == 76 && sizeof(Screen) == 12);
 static_assert(sizeof(Frame) == 112 && offsetof(Frame, shadow_rays) == 108);
 }  // namespace lw
 #else
@@ -122,6 +124,7 @@ layout(constant_id = constant_gather_mode) const uint gather_mode = 1u;
 layout(constant_id = constant_heap_size) const uint heap_size = 256u;
 layout(constant_id = constant_has_direct) const bool has_direct = true;
 layout(constant_id = constant_has_coverage) const bool has_coverage = true;
+layout(constant_id = constant_has_visible_lamps) const bool has_visible_lamps = true;
 
 #define LW_ARRAY(TYPE, NAME) \
     layout(set = 0, binding = binding_##NAME, scalar) readonly buffer NAME##_buffer { TYPE NAME[]; }

@@ -9,15 +9,15 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { Frame frame; };
 
-LW_ARRAY(LightState, light_states);
+LW_ARRAY(Lamp, lamps);
 LW_ARRAY(uint, triangle_maps);
 LW_ARRAY(SurfaceGrid, grids);
 LW_ARRAY(uint, cell_starts);
-LW_ARRAY(Light, lights);
 LW_ARRAY(BvhNode, bvh_nodes);
 LW_ARRAY(uint, bvh_triangles);
 LW_ARRAY(Emitter, emitters);
 LW_ARRAY(uint, coverage);
+LW_ARRAY(uint, visible_lamps);
 layout(set = 0, binding = binding_places, scalar) readonly buffer Places { PhotonPlace records[]; }
 places[most_place_chunks];
 layout(set = 0, binding = binding_fluxes, scalar) readonly buffer Fluxes { uint records[]; }
@@ -35,7 +35,7 @@ layout(set = 1, binding = binding_normal_depth, scalar) writeonly buffer NormalD
 #define ray_epsilon frame.ray_epsilon
 #define scene_size frame.scene_size
 #define shadow_rays frame.shadow_rays
-#define light_count uint(lights.length())
+#define light_count uint(lamps.length())
 #define bvh_node_count uint(bvh_nodes.length())
 
 // Constant indices only: the arrays of buffers need no dynamic indexing, and one chunk costs no branch.
@@ -62,7 +62,9 @@ uint photon_direction(uint i) {
     return directions[0].records[i];
 }
 
-vec3 light_weight(uint light) { return light_states[light].weight; }
+vec3 light_weight(uint light) { return lamps[light].weight; }
+
+Light light_at(uint i) { return lamps[i].light; }
 
 #include "surface.glsl"
 #include "bsdf.glsl"
@@ -73,7 +75,7 @@ vec3 light_weight(uint light) { return light_states[light].weight; }
 vec3 own_radiance(Surface s, bool front) {
     if ((s.flags & material_unlit) != 0u) return s.base_color;
     if (!front && (s.flags & material_double_sided) == 0u) return vec3(0.0f);
-    return s.emissive * (s.light >= 0 ? light_states[s.light].factor : 1.0f);
+    return s.emissive * (s.light >= 0 ? lamps[s.light].factor : 1.0f);
 }
 
 void store(uint pixel, vec4 light, vec4 geometry) {
@@ -99,7 +101,7 @@ void main() {
     uint map = triangle_maps[2u * visible.x + (front ? 0u : 1u)];
     Gathered light = gather_photons(map, s, n_geometric, n_shading, normalize(to_camera));
     uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
-    if (has_direct) add_direct(s, n_geometric, n_shading, normalize(to_camera), seed, light);
+    if (has_direct) add_direct(map, s, n_geometric, n_shading, normalize(to_camera), seed, light);
     float illuminance = dot(light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
     store(pixel, vec4(light.radiance + own_radiance(s, front), illuminance),
           vec4(n_shading, dot(to_camera, frame.camera_back)));

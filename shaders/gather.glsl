@@ -153,14 +153,25 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
     return sum;
 }
 
-/// The part of the kernel of `radius` around a point that lies on surface light can reach; between the lattice's nodes.
-float coverage_at(SurfaceGrid grid, vec3 local, float radius) LW_MEMBER {
-    SurfaceLattice lattice = grid.lattice;
+/// The node below and left of a point, and in `f` where the point lies in the cell it begins.
+uint cell_node(SurfaceLattice lattice, vec3 local, LW_INOUT(vec2) f) LW_MEMBER {
     vec2 last = vec2(float(lattice.columns - 1u), float(lattice.rows - 1u));
     vec2 at = clamp((vec2(local.x, local.y) - lattice.low) / lattice.step, vec2(0.0f), last);
     vec2 base = min(floor(at), last - 1.0f);
-    vec2 f = at - base;
-    uint node = lattice.first_node + uint(base.y) * lattice.columns + uint(base.x);
+    f = at - base;
+    return lattice.first_node + uint(base.y) * lattice.columns + uint(base.x);
+}
+
+vec3 position_in_grid(SurfaceGrid grid, vec3 position) LW_MEMBER {
+    vec3 offset = position - grid.origin;
+    return vec3(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+}
+
+/// The part of the kernel of `radius` around a point that lies on surface light can reach; between the lattice's nodes.
+float coverage_at(SurfaceGrid grid, vec3 local, float radius) LW_MEMBER {
+    SurfaceLattice lattice = grid.lattice;
+    vec2 f = vec2(0.0f);
+    uint node = cell_node(lattice, local, f);
     float fraction = radius / grid.radius;
     float below = mix(unpack_coverage(coverage[node], fraction), unpack_coverage(coverage[node + 1u], fraction), f.x);
     node += lattice.columns;
@@ -180,8 +191,7 @@ Gathered gather_photons(uint map, Surface s, vec3 n_geometric, vec3 n_shading, v
         return nothing;
     }
     SurfaceGrid grid = grids[map];
-    vec3 offset = s.position - grid.origin;
-    vec3 local = vec3(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+    vec3 local = position_in_grid(grid, s.position);
     if (gather_mode == 0u) return gather_exact(grid, local, s, n_geometric, n_shading, to_view);
     Gathered sum = gather_smooth(grid, local, s, n_geometric, n_shading, to_view);
     if (!has_coverage) return sum;

@@ -45,6 +45,13 @@ LW_CONST uint coverage_levels = 4u;
 LW_CONST float coverage_unit = 160.0f;  // the byte of coverage 1
 LW_CONST float least_coverage = 0.05f;
 
+/// What the surroundings of a node see of a lamp, two bits; none of them: not known.
+LW_CONST uint some_visible = 1u;
+LW_CONST uint some_hidden = 2u;
+LW_INLINE uint visibility_words(uint lamps) { return (lamps + 15u) / 16u; }
+LW_INLINE uint visibility_word(uint lamp) { return lamp / 16u; }
+LW_INLINE uint visibility_shift(uint lamp) { return 2u * (lamp % 16u); }
+
 /// Where a referenced photon lies in its map, and which light it came from (8 bytes).
 struct PhotonPlace {
     uint uv;                // 16 + 16 bits, steps of quantum.xy

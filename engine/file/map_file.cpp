@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<char, 8> magic{'L', 'W', 'P', 'H', 'O', 'T', 'O', 'N'};
 constexpr uint32_t version = 2;
-constexpr size_t section_count = 8;
+constexpr size_t section_count = 9;
 
 /// The fixed head of the file; sections follow in this order, each `bytes` long.
 struct Header {
@@ -34,7 +34,7 @@ struct Header {
     uint32_t direct_in_photons;
     std::array<uint64_t, section_count> bytes;
 };
-static_assert(sizeof(Header) == 136);
+static_assert(sizeof(Header) == 144);
 constexpr size_t checked_from = offsetof(Header, scene_hash);
 
 /// 64-bit hash in the order of the bytes; the last word is padded with zeros.
@@ -68,6 +68,7 @@ void for_each_section(Map& map, const Visit& visit) {
     visit(map.fluxes);
     visit(map.directions);
     visit(map.coverage);
+    visit(map.visible_lamps);
 }
 
 template <class T>
@@ -228,6 +229,9 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
         refuse(path, "the map file has changed since it was written (checksum)");
     check_indices(path, map, scene);
     check_lattices(path, map);
+    if (map.has_visible_lamps() &&
+        map.visible_lamps.size() != map.coverage.size() * visibility_words(uint(scene.lights.size())))
+        refuse(path, "lattices and lamp visibility do not agree");
     return map;
 }
 

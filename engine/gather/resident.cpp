@@ -45,7 +45,8 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
     return bytes(s.positions) + bytes(s.normals) + bytes(s.uv0) + bytes(s.uv1) + bytes(s.colors) + bytes(s.tangents) +
            bytes(s.triangles) + bytes(s.triangle_objects) + bytes(s.texels) + bytes(m.triangle_maps) + bytes(m.grids) +
-           bytes(m.cell_starts) + bytes(m.places) + bytes(m.fluxes) + bytes(m.directions) + bytes(m.coverage);
+           bytes(m.cell_starts) + bytes(m.places) + bytes(m.fluxes) + bytes(m.directions) + bytes(m.coverage) +
+           bytes(m.visible_lamps);
 }
 
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map) {
@@ -79,14 +80,15 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     check_device(device, scene, map);
     choose_constants(scene, map);
     constants_[constant_has_direct] = !bvh.nodes.empty() && !map.settings.direct_in_photons;
+    constants_[constant_has_visible_lamps] = map.has_visible_lamps();
     constants_[constant_has_coverage] = map.has_coverage();
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
-    for (const Light& light : scene.lights) intensities_.push_back(light.intensity);
-    light_states_ = Buffer(device, std::max<size_t>(1, intensities_.size()) * sizeof(LightState), "lights");
-    descriptors_.set_buffer(binding_light_states, light_states_);
-    set_light_factors(std::vector<float>(intensities_.size(), 1.0f));
+    for (const Light& light : scene.lights) lamp_states_.push_back({light, light.intensity, 1});
+    lamps_ = Buffer(device, std::max<size_t>(1, lamp_states_.size()) * sizeof(Lamp), "lights");
+    descriptors_.set_buffer(binding_lamps, lamps_);
+    set_light_factors(std::vector<float>(lamp_states_.size(), 1.0f));
 }
 
 void Resident::choose_constants(const Scene& scene, const PhotonMap& map) {
@@ -131,11 +133,11 @@ void Resident::upload_map(const PhotonMap& map) {
     upload_chunks<PhotonPlace>(binding_places, map.places, constants_[constant_place_shift], "photon places");
     upload_chunks<uint>(binding_fluxes, map.fluxes, constants_[constant_flux_shift], "photon fluxes");
     upload_array<uint>(binding_coverage, map.coverage, "coverage");
+    upload_array<uint>(binding_visible_lamps, map.visible_lamps, "lamp visibility");
     upload_chunks<uint>(binding_directions, map.directions, constants_[constant_flux_shift], "photon directions");
 }
 
 void Resident::upload_direct(const Scene& scene, const Bvh& bvh) {
-    upload_array<Light>(binding_lights, scene.lights, "lamps");
     upload_array<Emitter>(binding_emitters, scene.emitters, "emitters");
     upload_array<BvhNode>(binding_bvh_nodes, bvh.nodes, "nodes of the shadow rays' hierarchy");
     upload_array<uint>(binding_bvh_triangles, bvh.triangles, "triangles of the shadow rays' hierarchy");
@@ -168,14 +170,16 @@ void Resident::upload_chunks(uint binding, std::span<const T> values, uint shift
 }
 
 void Resident::set_light_factors(std::span<const float> factors) {
-    assert(factors.size() == intensities_.size());
-    std::vector<LightState> states;
-    for (size_t i = 0; i < factors.size(); ++i) states.push_back({intensities_[i] * factors[i], factors[i]});
-    write_bytes(*device_, light_states_, states.data(), states.size() * sizeof(LightState));
+    assert(factors.size() == lamp_states_.size());
+    for (size_t i = 0; i < factors.size(); ++i) {
+        lamp_states_[i].weight = lamp_states_[i].light.intensity * factors[i];
+        lamp_states_[i].factor = factors[i];
+    }
+    write_bytes(*device_, lamps_, lamp_states_.data(), lamp_states_.size() * sizeof(Lamp));
 }
 
 uint64_t Resident::bytes() const {
-    uint64_t sum = light_states_.size();
+    uint64_t sum = lamps_.size();
     for (const Buffer& buffer : buffers_) sum += buffer.size();
     return sum;
 }

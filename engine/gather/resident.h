@@ -57,10 +57,10 @@ class Resident {
     float inverse_flux_scale_;
     float ray_epsilon_;
     float scene_size_;
-    std::vector<vec3> intensities_;
+    std::vector<Lamp> lamp_states_;
     DescriptorSet descriptors_;
     std::vector<Buffer> buffers_;
-    Buffer light_states_;
+    Buffer lamps_;
 };
 
 }  // namespace lw

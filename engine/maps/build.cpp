@@ -8,6 +8,7 @@
 #include "maps/packing.h"
 #include "maps/patches.h"
 #include "maps/references.h"
+#include "maps/visibility.h"
 
 namespace lw {
 namespace {
@@ -156,9 +157,10 @@ void add_coverage(const Scene& scene, const RayCaster& caster, const Partition& 
     for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
     const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.4f * radius, map);
     const std::vector<Photon> samples =
-        sample_surfaces(scene, caster, 0.03 * double(radius) * double(radius), 0.25f * radius);
+        sample_surfaces(scene, caster, partition.patches, 0.03f * radius * radius, 0.25f * radius);
     const References references = find_references(
         {scene, samples, partition.patches, partition.shapes, partition.radii, map.settings.neighbour_angle_deg});
+    if (!map.settings.direct_in_photons) map.visible_lamps = find_visibility(scene, caster, map, nodes);
     map.coverage = find_coverage(scene, map, nodes, samples, references, kept);
 }
 

@@ -13,6 +13,7 @@ namespace lw {
 namespace {
 
 constexpr int rays_around = 4;
+constexpr double samples_of_patch = 64;
 using Levels = std::array<float, coverage_levels>;
 
 /// True when every one of a few rays into the hemisphere meets a surface closer than `clearance`.
@@ -89,6 +90,26 @@ class MapSamples {
     std::vector<vec4> sorted_;  // u, v, h, area
 };
 
+double triangle_area(const Scene& scene, size_t triangle) {
+    const uvec3 c = scene.triangles[triangle];
+    const vec3 a = scene.positions[c.x];
+    return 0.5 * double(length(cross(scene.positions[c.y] - a, scene.positions[c.z] - a)));
+}
+
+/// The area a sample of each triangle stands for: at most `area`, and a patch has at least samples_of_patch.
+std::vector<float> areas_of_samples(const Scene& scene, const Patches& patches, float area) {
+    std::vector<double> patch_areas(patches.count, 0);
+    for (size_t t = 0; t < scene.triangles.size(); ++t)
+        for (size_t side = 2 * t; side < 2 * t + 2; ++side)
+            patch_areas[patches.of_side[side]] += triangle_area(scene, t);
+    std::vector<float> areas(scene.triangles.size());
+    for (size_t t = 0; t < areas.size(); ++t) {
+        const double smaller = std::min(patch_areas[patches.of_side[2 * t]], patch_areas[patches.of_side[2 * t + 1]]);
+        areas[t] = std::max(1e-20f, std::min(area, float(smaller / samples_of_patch)));
+    }
+    return areas;
+}
+
 uint pack_coverage(const Levels& levels) {
     uint bits = 0;
     for (uint i = 0; i < coverage_levels; ++i)
@@ -98,18 +119,15 @@ uint pack_coverage(const Levels& levels) {
 
 }  // namespace
 
-std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, double area, float clearance) {
+std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const Patches& patches, float area,
+                                    float clearance) {
     constexpr size_t chunk = 1024;
+    const std::vector<float> shares = areas_of_samples(scene, patches, area);
     std::vector<uint> counts(scene.triangles.size());
-    std::vector<float> shares(scene.triangles.size());
     double waiting = 0.5;
     for (size_t t = 0; t < counts.size(); ++t) {
-        const uvec3 c = scene.triangles[t];
-        const vec3 a = scene.positions[c.x];
-        const double size = 0.5 * double(length(cross(scene.positions[c.y] - a, scene.positions[c.z] - a)));
-        waiting += size / area;
+        waiting += triangle_area(scene, t) / double(shares[t]);
         counts[t] = uint(waiting);
-        shares[t] = float(area);
         waiting -= counts[t];
     }
     std::vector<std::vector<Photon>> chunks((counts.size() + chunk - 1) / chunk);

@@ -9,9 +9,11 @@
 
 namespace lw {
 
-/// Evenly spread points on both sides of all triangles, `area` m2 each, without those that lie closer than `clearance`
-/// metres under another surface all around: no light gets there. As photons whose flux is their area.
-std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, double area, float clearance);
+/// Evenly spread points on both sides of all triangles, without those that lie closer than `clearance` metres under
+/// another surface all around: no light gets there. As photons whose flux is their area: `area` m2, or as little as
+/// gives a small patch its share.
+std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const Patches& patches, float area,
+                                    float clearance);
 
 /// The coverage of each node, packed by pack_coverage(). `references` say which samples belong to which patch, by the
 /// same rule as photons; patch_of_map[m] is the patch of map m.

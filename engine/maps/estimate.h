@@ -34,6 +34,8 @@ class PhotonEstimator : public SurfaceReader {
           has_directions(map.has_directions()),
           has_coverage(map.has_coverage()),
           coverage(map.coverage.data()),
+          has_visible_lamps(map.has_visible_lamps()),
+          visible_lamps(map.visible_lamps.data()),
           lights(scene.lights.data()),
           bvh_nodes(bvh.nodes.data()),
           bvh_triangles(bvh.triangles.data()),
@@ -49,6 +51,7 @@ class PhotonEstimator : public SurfaceReader {
     uint photon_flux(uint i) const { return map_.fluxes[i]; }
     uint photon_direction(uint i) const { return map_.directions[i]; }
     vec3 light_weight(uint light) const { return weights_[light]; }
+    Light light_at(uint i) const { return lights[i]; }
 
 #include "shaders/direct.glsl"
 #include "shaders/gather.glsl"
@@ -60,8 +63,9 @@ class PhotonEstimator : public SurfaceReader {
         const bool back = dot(s.geometric_normal, to_view) < 0;
         const float side = back ? -1.0f : 1.0f;
         const vec3 ng = s.geometric_normal * side, n = s.normal * side;
-        Gathered sum = gather_photons(map_.triangle_maps[2 * triangle + (back ? 1 : 0)], s, ng, n, to_view);
-        if (has_direct) add_direct(s, ng, n, to_view, seed, sum);
+        const uint map = map_.triangle_maps.empty() ? no_map : map_.triangle_maps[2 * triangle + (back ? 1 : 0)];
+        Gathered sum = gather_photons(map, s, ng, n, to_view);
+        if (has_direct) add_direct(map, s, ng, n, to_view, seed, sum);
         return sum;
     }
 
@@ -81,6 +85,8 @@ class PhotonEstimator : public SurfaceReader {
     float inverse_flux_scale;
     bool has_directions, has_coverage;
     const uint* coverage;
+    bool has_visible_lamps;
+    const uint* visible_lamps;
     const Light* lights;
     const BvhNode* bvh_nodes;
     const uint* bvh_triangles;

@@ -32,9 +32,12 @@ struct PhotonMap {
     std::vector<uint> directions;     // octahedral direction the photon came from; empty without glossy surfaces
 
     std::vector<uint> coverage;  // per node of the lattices of all maps, see unpack_coverage()
+    std::vector<uint>
+        visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all light
 
     bool has_directions() const { return !directions.empty(); }
     bool has_coverage() const { return !coverage.empty(); }
+    bool has_visible_lamps() const { return !visible_lamps.empty(); }
 };
 
 }  // namespace lw

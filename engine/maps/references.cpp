@@ -90,8 +90,7 @@ std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float larg
     for (const PatchShape& shape : shapes) {
         const vec3 size = shape.high - shape.low;
         const float perimeter = 2 * (size.x + size.y), area = size.x * size.y;
-        const float bound =
-            (-perimeter + std::sqrt(perimeter * perimeter + 4 * 1.3f * lw_pi * area)) / (2 * lw_pi);
+        const float bound = (-perimeter + std::sqrt(perimeter * perimeter + 4 * 1.1f * lw_pi * area)) / (2 * lw_pi);
         radii.push_back(clamp(bound, std::min(floor, largest), largest));
     }
     return radii;

@@ -27,7 +27,7 @@ struct ReferenceInput {
 };
 
 /// The radius of each patch: `largest`, but so small that the photons around a small patch do not outnumber those on
-/// it: the overhang (P r + pi r^2) / A of its rectangle stays below 1.3, unless the radius is below `floor` metres.
+/// it: the overhang (P r + pi r^2) / A of its rectangle stays below 1.1, unless the radius is below `floor` metres.
 std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float largest, float floor);
 
 /// A photon belongs to a patch when it lies within the patch's radius of its triangle (of the box around it, when the

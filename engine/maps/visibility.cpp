@@ -1,0 +1,86 @@
+#include "maps/visibility.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "base/random.h"
+#include "trace/emitter.h"
+
+namespace lw {
+namespace {
+
+constexpr int rays_to_mesh = 3;
+
+/// A point of a map's surface and the direction its lit side faces.
+struct Receiver {
+    vec3 position, normal;
+};
+
+class LampRays {
+  public:
+    LampRays(const Scene& scene, const RayCaster& caster) : scene_(scene), caster_(caster), emitters_(scene) {}
+
+    /// The bits of one lamp at a receiver.
+    uint look(uint lamp, const Receiver& receiver, Rng& rng) const {
+        uint bits = 0;
+        const int rays = scene_.lights[lamp].type == light_mesh ? rays_to_mesh : 1;
+        for (int i = 0; i < rays; ++i) {
+            const float u = (float(i) + rng.next()) / float(rays);
+            bits |= look_at(emitters_.arrive(lamp, receiver.position, u, rng.next()), receiver);
+        }
+        return bits;
+    }
+
+  private:
+    uint look_at(const std::optional<Incident>& in, const Receiver& receiver) const {
+        if (!in || dot(in->to_light, receiver.normal) <= 0) return some_hidden;
+        const vec3 passed = caster_.transmittance(caster_.offset(receiver.position, receiver.normal), in->position);
+        return (passed == vec3(1) ? 0 : some_hidden) | (passed == vec3(0) ? 0 : some_visible);
+    }
+
+    const Scene& scene_;
+    const RayCaster& caster_;
+    Emitters emitters_;
+};
+
+/// Joins the words of each node with those of its neighbours.
+void spread(const SurfaceLattice& lattice, uint words, const std::vector<uint>& own, std::vector<uint>& joined) {
+    const int columns = int(lattice.columns), rows = int(lattice.rows);
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < columns; ++x)
+            for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, rows - 1); ++ny)
+                for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, columns - 1); ++nx)
+                    for (uint w = 0; w < words; ++w)
+                        joined[(lattice.first_node + uint(y * columns + x)) * words + w] |=
+                            own[(lattice.first_node + uint(ny * columns + nx)) * words + w];
+}
+
+}  // namespace
+
+std::vector<uint> find_visibility(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
+                                  const std::vector<NodePoint>& nodes) {
+    const auto lamps = uint(scene.lights.size()), words = visibility_words(lamps);
+    const LampRays rays(scene, caster);
+    const SurfaceReader surfaces(scene);
+    std::vector<uint> own(nodes.size() * words, 0), joined(nodes.size() * words, 0);
+    Progress progress("lamp visibility", nodes.size());
+    parallel_for(map.grids.size(), [&](size_t m) {
+        const SurfaceLattice& lattice = map.grids[m].lattice;
+        const uint end = lattice.first_node + lattice.columns * lattice.rows;
+        for (uint n = lattice.first_node; n < end; ++n) {
+            if (!nodes[n].exists()) continue;
+            const Surface s = surfaces.surface_at(nodes[n].triangle, nodes[n].barycentrics);
+            const float side = dot(s.geometric_normal, map.grids[m].normal) < 0 ? -1.0f : 1.0f;
+            Rng rng(1, 1, n);
+            for (uint lamp = 0; lamp < lamps; ++lamp)
+                own[n * words + visibility_word(lamp)] |= rays.look(lamp, {s.position, s.geometric_normal * side}, rng)
+                                                          << visibility_shift(lamp);
+        }
+        spread(lattice, words, own, joined);
+        progress.step(end - lattice.first_node);
+    });
+    return joined;
+}
+
+}  // namespace lw
