@@ -135,7 +135,7 @@ FrameError error_of(const Image& picture, const Image& reference, Quantity quant
     error.rmse = std::sqrt(squared / count) / mean;
     error.reference_error = std::sqrt(noise_squared / count) / mean;
     error.rmse_without_noise = std::sqrt(std::max(0.0, squared - noise_squared) / count) / mean;
-    error.flip = compare(picture, reference).flip;
+    error.flip = picture.find("R") ? compare(picture, reference).flip : std::numeric_limits<double>::quiet_NaN();
     add_border_error(a, r, border, error);
     return error;
 }
@@ -146,7 +146,7 @@ void add_error(Row& row, const FrameError& error) {
     row["reference_error_%"] = percent(error.reference_error);
     row["bias_%"] = percent(error.bias);
     if (error.border_share > 0) row["border_bias_%"] = percent(error.border_bias);
-    row["flip"] = error.flip;
+    row["flip"] = std::isfinite(error.flip) ? Row(error.flip) : Row();
 }
 
 }  // namespace lw

@@ -33,7 +33,7 @@ struct FrameError {
     double bias = 0;                // mean ratio - 1
     double border_bias = 0;         // the same over border pixels; NaN without any
     double border_share = 0;        // of all pixels that see a surface
-    double flip = 0;                // mean FLIP of the tone-mapped colours
+    double flip = 0;                // mean FLIP of the tone-mapped colours; NaN when the picture has illuminance only
 };
 
 /// Which plane is compared: lux at the surface, or the luminance of the picture (cd/m2).

@@ -16,6 +16,8 @@ struct Subject {
     std::string name;
     Scene scene;
     std::string camera;
+    uint width, height;
+    uint64_t reference_samples;
 };
 
 /// Measured noise of the path tracer: error = at_one_second / sqrt(seconds).
@@ -64,11 +66,12 @@ Row tracer_row(const std::string& scene, const std::string& what, double ms, dou
 }
 
 /// Rows of one scene: the gather, the path tracer's runs, equal time, equal error.
-std::vector<Row> measure_subject(const Bench& bench, Subject subject, uint width, uint height) {
+std::vector<Row> measure_subject(const Bench& bench, Subject subject) {
+    const uint width = subject.width, height = subject.height;
     BakeSettings bake;
     bake.photons = bench.pick<uint64_t>(500'000, 4'000'000);
     const BakedCase baked(std::move(subject.scene), bake, bench.folder);
-    const ReferenceView view{find_camera(baked.scene, subject.camera), width, height, bench.pick<uint64_t>(64, 1024)};
+    const ReferenceView view{find_camera(baked.scene, subject.camera), width, height, subject.reference_samples};
     const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster, view);
     const TimedFrame frame =
         CaseOnDevice(bench.device, baked).render(view.camera, {width, height, 3}, default_gather());
@@ -115,13 +118,12 @@ std::vector<Table> measure_equal_time(const Bench& bench) {
         "that equal time does not reach every pixel.",
         {}};
     std::vector<Subject> subjects;
-    subjects.push_back({"room", make_room({}), ""});
-    subjects.push_back({"apartment.glb", load_gltf(bench.scenes / "apartment.glb"), "living"});
-    for (Subject& subject : subjects) {
-        const uint width = subject.camera.empty() ? bench.pick(128u, 500u) : bench.pick(160u, 480u);
-        const uint height = subject.camera.empty() ? width : width * 9 / 16;
-        for (Row& row : measure_subject(bench, std::move(subject), width, height)) table.rows.push_back(std::move(row));
-    }
+    const uint side = bench.pick(128u, 500u);
+    subjects.push_back({"room", make_room({}), "", side, side, bench.pick<uint64_t>(64, 512)});
+    subjects.push_back({"apartment.glb", load_gltf(bench.scenes / "apartment.glb"), "living", bench.pick(160u, 320u),
+                        bench.pick(90u, 180u), bench.pick<uint64_t>(64, 1024)});
+    for (Subject& subject : subjects)
+        for (Row& row : measure_subject(bench, std::move(subject))) table.rows.push_back(std::move(row));
     return {table};
 }
 

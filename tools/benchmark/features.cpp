@@ -44,7 +44,7 @@ Row measure_variant(const Bench& bench, const Variant& variant) {
     room.finish = variant.finish;
     const BakedCase baked(make_room(room), bake, bench.folder);
     const CaseOnDevice on_device(bench.device, baked);
-    const uint side = bench.pick(128u, 500u);
+    const uint side = bench.pick(128u, 250u);
     const TimedFrame frame = on_device.render(baked.scene.cameras[0], {side, side, 3}, default_gather());
     const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster,
                                              {baked.scene.cameras[0], side, side, bench.pick<uint64_t>(32, 256)});
@@ -71,7 +71,7 @@ std::vector<Table> measure_features(const Bench& bench) {
     Table table{"features",
                 "rooms",
                 "The same room with what it may need or not: " + std::to_string(bench.pick(250'000, 4'000'000)) +
-                    " photons, default gather, " + (bench.quick ? "128x128" : "500x500") +
+                    " photons, default gather, " + (bench.quick ? "128x128" : "250x250") +
                     "; *added* is the difference to the first row. Errors are of luminance.",
                 {}};
     for (const Variant& variant : variants) table.rows.push_back(measure_variant(bench, variant));

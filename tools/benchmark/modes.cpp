@@ -1,5 +1,5 @@
 // The gather modes: milliseconds of each pass, candidates, bytes, and errors, at several numbers of neighbours.
-#include <atomic>
+#include <algorithm>
 
 #include "accuracy.h"
 #include "base/parallel.h"
@@ -92,10 +92,15 @@ std::vector<Row> measure_case(const Bench& bench, const View& view, const BakedC
     return rows;
 }
 
-/// The scene baked with exact direct light, and the paper's way with all light in the photons.
+bool has_punctual_lamp(const Scene& scene) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return l.type != light_mesh; });
+}
+
+/// The scene baked with exact direct light, and, where that differs, the paper's way with all light in the photons.
 std::vector<Row> measure_view(const Bench& bench, View view) {
     std::vector<Row> rows;
     for (bool direct_in_photons : {false, true}) {
+        if (direct_in_photons && !has_punctual_lamp(view.scene)) continue;
         BakeSettings bake;
         bake.photons = view.photons;
         bake.direct_in_photons = direct_in_photons;
@@ -116,7 +121,8 @@ std::vector<Row> measure_convergence(const Bench& bench, const View& view) {
         const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster, seen);
         const CaseOnDevice on_device(bench.device, baked);
         for (uint k : {50u, 200u, 500u}) {
-            const TimedFrame frame = on_device.render(seen.camera, {view.width, view.height, 1}, {1, k});
+            const TimedFrame frame =
+                on_device.render(seen.camera, {view.width, view.height, 1}, {default_gather().mode, k});
             rows.push_back({{"scene", view.scene_name},
                             {"photons", baked.photons.records.size()},
                             {"k", k},
@@ -129,13 +135,14 @@ std::vector<Row> measure_convergence(const Bench& bench, const View& view) {
 
 std::vector<View> views_of(const Bench& bench) {
     const auto photons = bench.pick<uint64_t>(500'000, 4'000'000);
-    const auto samples = bench.pick<uint64_t>(64, 1024);
+    const auto samples = bench.pick<uint64_t>(64, 512);
     const uint side = bench.pick(128u, 500u);
     std::vector<View> views;
-    views.push_back({"cornell.gltf", "", load_gltf(bench.scenes / "cornell.gltf"), side, side, photons, samples});
+    views.push_back({"cornell.gltf", "", load_gltf(bench.scenes / "cornell.gltf"), bench.pick(128u, 256u),
+                     bench.pick(128u, 256u), photons, 2 * samples});
     views.push_back({"room", "", make_room({}), side, side, photons, samples});
-    views.push_back({"apartment.glb", "living", load_gltf(bench.scenes / "apartment.glb"), bench.pick(160u, 480u),
-                     bench.pick(90u, 270u), photons, bench.pick<uint64_t>(64, 2048)});
+    views.push_back({"apartment.glb", "living", load_gltf(bench.scenes / "apartment.glb"), bench.pick(160u, 320u),
+                     bench.pick(90u, 180u), photons, bench.pick<uint64_t>(64, 1024)});
     return views;
 }
 

@@ -50,7 +50,8 @@ bool is_on_surface(float height, float distance_squared, float max_radius) {
     return excess * excess <= 0.75f * distance_squared;
 }
 
-/// What a photon of the whole scene must pass to count at a query.
+/// What a photon of the whole scene must pass to count at a query: the rules by which a map refers to it
+/// (engine/maps/references.cpp, with the distance to the query for that to the map) and by which the gather takes it.
 struct Rules {
     const Query& query;
     float cos_angle, max_radius;
@@ -60,8 +61,16 @@ struct Rules {
           cos_angle(std::cos(map.settings.neighbour_angle_deg * lw_pi / 180)),
           max_radius(map.settings.radius) {}
     bool accept(vec3 position, vec3 normal, float distance_squared) const {
-        return dot(normal, query.normal) >= cos_angle &&
-               is_on_surface(dot(position - query.position, query.normal), distance_squared, max_radius);
+        const float cosine = dot(normal, query.normal);
+        if (cosine < cos_angle) return false;
+        const float height = std::fabs(dot(position - query.position, query.normal));
+        return is_explained(height, cosine, distance_squared) && is_on_surface(height, distance_squared, max_radius);
+    }
+    /// A sheet above or below is no part of the surface unless it is turned against it.
+    bool is_explained(float height, float cosine, float distance_squared) const {
+        const float excess = std::max(height - 0.01f * max_radius, 0.0f);
+        const float sine_squared = 1.2f * std::max(0.0f, 1 - cosine * cosine) + 1e-4f;
+        return excess * excess <= sine_squared * distance_squared;
     }
 };
 

@@ -160,7 +160,7 @@ void add_point(Scene& scene, uint i, uint count) {
     Light light{};
     light.type = light_point;
     light.intensity = vec3(total_flux / float(count) / (4 * lw_pi));
-    light.position = lamp_place(i, count, 2.6f);
+    light.position = lamp_place(i, count, 2.2f);
     light.direction = vec3(0, -1, 0);
     scene.lights.push_back(light);
     scene.light_names.push_back("point" + std::to_string(i));

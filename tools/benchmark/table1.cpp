@@ -61,7 +61,8 @@ struct Subject {
 };
 
 Row method_row(const char* method, const std::string& where) {
-    return {{"method", method}, {"where", where}, {"knn_ms", nullptr}, {"integration_ms", nullptr}};
+    return {
+        {"method", method}, {"where", where}, {"knn_ms", nullptr}, {"integration_ms", nullptr}, {"gather_ms", nullptr}};
 }
 
 template <class Structure, class AddPhoton>
