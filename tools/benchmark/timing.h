@@ -18,7 +18,8 @@ struct Cost {
 
 Cost cost_of(const std::function<void()>& work);
 
-/// Forgets the peak so far, where the system allows it (Linux: /proc/self/clear_refs).
+/// Returns freed memory to the system and forgets the peak so far, so that earlier sections do not count (Linux,
+/// glibc).
 void reset_peak_memory();
 /// Peak resident memory of the process since the last reset, MB.
 double peak_memory_mb();
