@@ -60,6 +60,7 @@ Row row_of(const BakedCase& baked, const std::string& name, size_t raw_rays) {
     row["bytes_per_photon"] = bytes_per_photon(baked.map);
     row["references_per_photon"] = references_per_photon(baked.map);
     row["peak_memory_mb"] = baked.cost.peak_memory_mb;
+    row["added_memory_mb"] = baked.cost.added_memory_mb;
     const double raw = raw_rays_per_second(baked, raw_rays);
     const double photon_rays = traced_rays(baked) / baked.cost.trace.seconds / 1e6;
     row["photon_Mrays_per_s"] = photon_rays;

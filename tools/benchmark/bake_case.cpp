@@ -29,13 +29,14 @@ BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesy
     : scene(std::move(made)), weights(light_weights(scene, {})) {
     const std::filesystem::path file = folder / "benchmark.pmap";
     cost.hierarchy = cost_of([&] { caster = std::make_unique<RayCaster>(scene); });
-    reset_peak_memory();
+    const double before_mb = reset_peak_memory();
     cost.trace = cost_of([&] {
         photons = shoot_photons(scene, *caster, {settings.photons, settings.seed, settings.direct_in_photons});
     });
     cost.maps = cost_of([&] { map = build_photon_map(scene, photons, settings); });
     cost.write = cost_of([&] { save_photon_map(file, map); });
     cost.peak_memory_mb = peak_memory_mb();
+    cost.added_memory_mb = cost.peak_memory_mb - before_mb;
     cost.file_bytes = std::filesystem::file_size(file);
     cost.load = cost_of([&] { map = load_photon_map(file, scene); });
     std::filesystem::remove(file);

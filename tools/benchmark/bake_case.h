@@ -31,7 +31,8 @@ const char* name_of_mode(uint mode);
 
 struct BakeCost {
     Cost hierarchy, trace, maps, write, load;
-    double peak_memory_mb = 0;  // of trace, maps and write
+    double peak_memory_mb = 0;   // of the process during trace, maps and write
+    double added_memory_mb = 0;  // less what it held before: scene, hierarchy, device
     uint64_t file_bytes = 0;
 };
 

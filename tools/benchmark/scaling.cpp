@@ -65,6 +65,7 @@ void add_bake(Row& row, const BakedCase& baked) {
     row["write_s"] = baked.cost.write.seconds;
     row["bake_s"] = baked.cost.trace.seconds + baked.cost.maps.seconds + baked.cost.write.seconds;
     row["bake_peak_mb"] = baked.cost.peak_memory_mb;
+    row["bake_added_mb"] = baked.cost.added_memory_mb;
     row["file_mb"] = double(baked.cost.file_bytes) / 1e6;
     row["load_s"] = baked.cost.load.seconds;
     row["references_per_photon"] = references_per_photon(baked.map);
@@ -145,7 +146,7 @@ std::vector<Row> fit_axes(const std::vector<Row>& rows) {
         std::copy_if(rows.begin(), rows.end(), std::back_inserter(points),
                      [&](const Row& r) { return r["axis"] == axis; });
         Row fit{{"axis", axis}, {"points", points.size()}};
-        for (const char* cost : {"trace_s", "maps_s", "write_s", "bake_peak_mb", "file_mb", "load_s", "device_mb",
+        for (const char* cost : {"trace_s", "maps_s", "write_s", "bake_added_mb", "file_mb", "load_s", "device_mb",
                                  "gather_ms", "frame_ms", "rmse_%"}) {
             const double exponent = fitted_exponent(column(points, "value"), column(points, cost));
             fit[cost] = std::isfinite(exponent) ? Row(exponent) : Row();

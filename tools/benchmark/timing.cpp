@@ -40,11 +40,12 @@ Cost cost_of(const std::function<void()>& work) {
     return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), cpu_seconds() - cpu};
 }
 
-void reset_peak_memory() {
+double reset_peak_memory() {
 #ifdef __GLIBC__
     malloc_trim(0);
 #endif
     std::ofstream("/proc/self/clear_refs") << "5";
+    return peak_memory_mb();
 }
 
 double peak_memory_mb() {

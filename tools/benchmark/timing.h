@@ -20,7 +20,8 @@ Cost cost_of(const std::function<void()>& work);
 
 /// Returns freed memory to the system and forgets the peak so far, so that earlier sections do not count (Linux,
 /// glibc).
-void reset_peak_memory();
+/// Returns what the process still holds, MB.
+double reset_peak_memory();
 /// Peak resident memory of the process since the last reset, MB.
 double peak_memory_mb();
 
