@@ -69,7 +69,7 @@ class PhotonEstimator : public SurfaceReader {
         return sum;
     }
 
-  private:
+  protected:
     static const Bvh& no_shadows() {
         static const Bvh none;
         return none;

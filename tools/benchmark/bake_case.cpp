@@ -1,0 +1,70 @@
+#include "bake_case.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "file/map_file.h"
+#include "maps/build.h"
+#include "photons/shoot.h"
+#include "trace/build_bvh.h"
+#include "trace/emitter.h"
+
+namespace lw {
+
+const std::vector<GatherMode>& gather_modes() {
+    static const std::vector<GatherMode> modes{{"exact kNN", 0, true, PhotonEstimator::heap_size},
+                                               {"smooth", 1, true, 1'000'000}};
+    return modes;
+}
+
+GatherSettings default_gather() { return {}; }
+
+const char* name_of_mode(uint mode) {
+    for (const GatherMode& m : gather_modes())
+        if (m.mode == mode) return m.name;
+    return "?";
+}
+
+BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesystem::path& folder)
+    : scene(std::move(made)), weights(light_weights(scene, {})) {
+    const std::filesystem::path file = folder / "benchmark.pmap";
+    cost.hierarchy = cost_of([&] { caster = std::make_unique<RayCaster>(scene); });
+    const double before_mb = reset_peak_memory();
+    cost.trace = cost_of([&] {
+        photons = shoot_photons(scene, *caster, {settings.photons, settings.seed, settings.direct_in_photons});
+    });
+    cost.maps = cost_of([&] { map = build_photon_map(scene, *caster, photons, settings); });
+    cost.write = cost_of([&] { save_photon_map(file, map); });
+    cost.peak_memory_mb = peak_memory_mb();
+    cost.added_memory_mb = cost.peak_memory_mb - before_mb;
+    cost.file_bytes = std::filesystem::file_size(file);
+    cost.load = cost_of([&] { map = load_photon_map(file, scene); });
+    std::filesystem::remove(file);
+}
+
+uint64_t bytes_of(const PhotonMap& map) {
+    const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
+    return bytes(map.triangle_maps) + bytes(map.grids) + bytes(map.cell_starts) + bytes(map.places) +
+           bytes(map.fluxes) + bytes(map.directions) + bytes(map.coverage) + bytes(map.visible_lamps);
+}
+
+double references_per_photon(const PhotonMap& map) {
+    return double(map.places.size()) / double(std::max<uint64_t>(1, map.stored_photons));
+}
+
+double bytes_per_photon(const PhotonMap& map) {
+    return double(bytes_of(map)) / double(std::max<uint64_t>(1, map.stored_photons));
+}
+
+CaseOnDevice::CaseOnDevice(const Device& device, const BakedCase& baked) : device_(device) {
+    const Bvh bvh = baked.map.settings.direct_in_photons ? Bvh{} : build_bvh(baked.scene);
+    bvh_bytes_ = bvh.nodes.size() * sizeof(BvhNode) + bvh.triangles.size() * sizeof(uint);
+    resident_ = std::make_unique<Resident>(device, baked.scene, baked.map, bvh);
+}
+
+TimedFrame CaseOnDevice::render(const Camera& camera, FrameSize frame, const GatherSettings& gather) const {
+    Renderer renderer(device_, *resident_, frame.width, frame.height);
+    return {renderer.render(camera, {gather, std::nullopt, 1, frame.frames}), resident_->bytes()};
+}
+
+}  // namespace lw

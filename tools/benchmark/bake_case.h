@@ -1,0 +1,84 @@
+// One scene, baked, written, read again and rendered, with what each step cost. The only file of the benchmark that
+// drives the engine from scene to picture; the sections ask it for cases and frames.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gather/renderer.h"
+#include "maps/estimate.h"
+#include "maps/photon_map.h"
+#include "photons/photon.h"
+#include "table.h"
+#include "timing.h"
+#include "trace/ray_caster.h"
+
+namespace lw {
+
+/// A way to gather and the numbers of photons per estimate it is measured at.
+struct GatherMode {
+    const char* name;
+    uint mode;    // GatherSettings::mode
+    bool on_cpu;  // PhotonEstimator evaluates it, so that candidates can be counted
+    uint most;    // largest number of neighbours it takes
+};
+
+/// Every mode that GatherSettings has; the sections iterate over this table.
+const std::vector<GatherMode>& gather_modes();
+/// GatherSettings as the programs use them without options.
+GatherSettings default_gather();
+const char* name_of_mode(uint mode);
+
+struct BakeCost {
+    Cost hierarchy, trace, maps, write, load;
+    double peak_memory_mb = 0;   // of the process during trace, maps and write
+    double added_memory_mb = 0;  // less what it held before: scene, hierarchy, device
+    uint64_t file_bytes = 0;
+};
+
+/// A baked scene. Not movable: caster and map refer to the scene.
+struct BakedCase {
+    BakedCase(Scene made, const BakeSettings& settings, const std::filesystem::path& folder);
+    BakedCase(const BakedCase&) = delete;
+
+    Scene scene;
+    std::unique_ptr<RayCaster> caster;
+    Photons photons;
+    PhotonMap map;
+    std::vector<vec3> weights;  // RGB power of each lamp
+    BakeCost cost;
+};
+
+/// Bytes of the arrays of a map in memory; on the device they are the same.
+uint64_t bytes_of(const PhotonMap& map);
+double references_per_photon(const PhotonMap& map);
+double bytes_per_photon(const PhotonMap& map);
+
+struct FrameSize {
+    uint width, height;
+    uint frames = 1;  // times are their median
+};
+
+struct TimedFrame {
+    Rendering rendering;
+    uint64_t device_bytes = 0;
+    double total_ms() const {
+        return rendering.times.visibility_ms + rendering.times.gather_ms + rendering.times.tonemap_ms;
+    }
+};
+
+/// A baked case on a device; renders it at any size and with any gather.
+class CaseOnDevice {
+  public:
+    CaseOnDevice(const Device& device, const BakedCase& baked);
+    TimedFrame render(const Camera& camera, FrameSize frame, const GatherSettings& gather) const;
+    uint64_t bytes() const { return resident_->bytes(); }
+    uint64_t bvh_bytes() const { return bvh_bytes_; }
+
+  private:
+    const Device& device_;
+    uint64_t bvh_bytes_;
+    std::unique_ptr<Resident> resident_;
+};
+
+}  // namespace lw

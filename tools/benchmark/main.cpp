@@ -1,0 +1,119 @@
+// lumenwalk-benchmark: what baking and gathering cost, each speed beside its error against the path tracer.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "sections.h"
+
+namespace {
+
+const lw::Section sections[] = {
+    {"knn", "Figure 6: time of the k nearest photons against photon count, four structures", lw::measure_knn},
+    {"table1", "Table 1: global 3D kd-tree against the maps of triangles", lw::measure_table1},
+    {"modes", "gather modes: milliseconds, candidates, bytes, errors", lw::measure_modes},
+    {"scaling", "cost against photons, triangles, lights and pixels", lw::measure_scaling},
+    {"equal-time", "the path tracer at equal time and at equal error", lw::measure_equal_time},
+    {"features", "what many lamps, glossy materials and textures add", lw::measure_features},
+    {"bake", "seconds of the bake's phases, photon tracing against raw rays", lw::measure_bake},
+};
+
+struct Options {
+    std::string device, scenes = "data";
+    std::filesystem::path folder = "output/benchmark";
+    std::vector<std::string> only;
+    unsigned threads = 0;
+    bool quick = false;
+};
+
+std::string list_of_sections() {
+    std::string text = "Sections:\n";
+    for (const lw::Section& section : sections)
+        text += "  " + std::string(section.name) + std::string(12 - std::string(section.name).size(), ' ') +
+                section.question + "\n";
+    return text;
+}
+
+void add_options(CLI::App& app, Options& o) {
+    std::vector<std::string> names;
+    for (const lw::Section& section : sections) names.push_back(section.name);
+    app.add_flag("--quick", o.quick, "fewer photons, pixels and samples: minutes on two cores");
+    app.add_option("--only", o.only, "measure this section; may be repeated")->check(CLI::IsMember(names));
+    app.add_option("--device", o.device, "part of the name of a Vulkan device; default: the fastest kind");
+    app.add_option("-o,--output", o.folder, "folder for benchmark.csv, benchmark.json, a CSV per table and references/")
+        ->capture_default_str();
+    app.add_option("--scenes", o.scenes, "folder of cornell.gltf and apartment.glb")->capture_default_str();
+    app.add_option("--threads", o.threads, "worker threads (0: all cores)")
+        ->capture_default_str()
+        ->check(CLI::Range(0u, 4096u));
+    app.footer(list_of_sections());
+}
+
+std::string processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+    return "unknown processor";
+}
+
+lw::Row conditions_of(const Options& o, const lw::Device& device) {
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    return {{"processor", processor_name()},
+            {"threads", o.threads ? o.threads : cores},
+            {"device", device.name()},
+            {"quick", o.quick}};
+}
+
+bool is_wanted(const Options& o, const char* section) {
+    return o.only.empty() || std::find(o.only.begin(), o.only.end(), section) != o.only.end();
+}
+
+/// Tables are written after each section, so that an interrupted run leaves what it measured.
+void run(const Options& o) {
+    const lw::ThreadLimit limit(o.threads);
+    const lw::Device device({o.device, false});
+    std::filesystem::create_directories(o.folder);
+    const lw::Bench bench{device, o.folder, o.scenes, o.quick};
+    const lw::Row conditions = conditions_of(o, device);
+    std::printf("Measured on %s, %s threads, device %s%s.\n\n", conditions["processor"].get<std::string>().c_str(),
+                conditions["threads"].dump().c_str(), device.name().c_str(), o.quick ? ", --quick" : "");
+    std::vector<lw::Table> tables;
+    for (const lw::Section& section : sections) {
+        if (!is_wanted(o, section.name)) continue;
+        std::vector<lw::Table> measured;
+        const lw::Cost cost = lw::cost_of([&] { measured = section.measure(bench); });
+        std::printf("### %s: %s\n\n", section.name, section.question);
+        for (lw::Table& table : measured) {
+            std::printf("%s\n", lw::to_markdown(table).c_str());
+            tables.push_back(std::move(table));
+        }
+        std::printf("(section %s took %.0f s)\n\n", section.name, cost.seconds);
+        std::fflush(stdout);
+        lw::write_tables(o.folder, tables, conditions);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app("Measures Lumenwalk: every speed beside its error against the reference, as tables, CSV and JSON.",
+                 "lumenwalk-benchmark");
+    add_options(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& wrong) {
+        return app.exit(wrong) == 0 ? 0 : 2;
+    }
+    try {
+        lw::watch_for_interrupt();
+        run(options);
+    } catch (const std::exception& failure) {
+        std::fprintf(stderr, "lumenwalk-benchmark: %s\n", failure.what());
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,120 @@
+// Exact k nearest photons by four structures, for Figure 6 and Table 1: the 2D grid of our maps, a 2D kd-tree per map,
+// a global 3D kd-tree and a 3D hash grid. All use the same bounded max-heap and the same rules: side and orientation
+// (60 degrees, by the maps' references or by a test), height above the surface, the radius of the map.
+// kd-trees are nanoflann's (Blanco & Rai 2014).
+#pragma once
+#include <memory>
+#include <nanoflann.hpp>
+#include <vector>
+
+#include "maps/photon_map.h"
+#include "photons/photon.h"
+#include "scene/scene.h"
+
+namespace lw {
+
+struct Query {
+    vec3 position;
+    vec3 normal;  // geometric, to the viewer
+    uint map;     // of the seen side of the triangle; not no_map
+};
+
+/// The k nearest so far; indices belong to the structure that was searched.
+class NearestPhotons {
+  public:
+    struct Entry {
+        float distance_squared;
+        uint index;
+        bool operator<(const Entry& other) const { return distance_squared < other.distance_squared; }
+    };
+    void start(uint k, float radius_squared);
+    /// The squared distance below which a photon is still wanted.
+    float bound() const { return bound_; }
+    void add(float distance_squared, uint index);
+    bool full() const { return entries_.size() == k_; }
+    /// A max-heap: the farthest first.
+    const std::vector<Entry>& entries() const { return entries_; }
+
+  private:
+    uint k_ = 0;
+    float bound_ = 0;
+    std::vector<Entry> entries_;
+};
+
+/// The 2D grid of each map, searched on the arrays that the file and the GPU hold.
+class MapGridSearch {
+  public:
+    explicit MapGridSearch(const PhotonMap& map) : map_(map) {}
+    void find(const Query& query, NearestPhotons& nearest) const;
+    vec3 position(const Query& query, uint index) const;
+
+  private:
+    struct Local;
+    void visit(const Local& local, int x0, int x1, int y, NearestPhotons& nearest) const;
+    const PhotonMap& map_;
+};
+
+/// A 2D kd-tree over u and v of each map's references.
+class MapTreeSearch {
+  public:
+    explicit MapTreeSearch(const PhotonMap& map);
+    ~MapTreeSearch();
+    void find(const Query& query, NearestPhotons& nearest) const;
+    vec3 position(const Query& query, uint index) const;
+
+    struct Points;
+
+  private:
+    using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 2, uint>;
+    const PhotonMap& map_;
+    std::vector<vec3> local_;  // u, v, h per reference, m
+    std::vector<std::unique_ptr<Points>> points_;
+    std::vector<std::unique_ptr<Tree>> trees_;
+};
+
+/// Positions of all photons, and the normals of the sides they struck.
+struct PhotonCloud {
+    PhotonCloud(const Scene& scene, const std::vector<Photon>& photons);
+    std::vector<vec3> positions, normals;
+};
+
+/// One 3D kd-tree over all photons.
+class GlobalTreeSearch {
+  public:
+    GlobalTreeSearch(const PhotonCloud& cloud, const PhotonMap& map);
+    ~GlobalTreeSearch();
+    void find(const Query& query, NearestPhotons& nearest) const;
+    vec3 position(const Query&, uint index) const { return cloud_.positions[index]; }
+
+    struct Points;
+
+  private:
+    using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3, uint>;
+    const PhotonCloud& cloud_;
+    const PhotonMap& map_;
+    std::unique_ptr<Points> points_;
+    std::unique_ptr<Tree> tree_;
+};
+
+/// A hash table of 3D cells, photons copied in cell order; shells of cells outwards.
+class HashGridSearch {
+  public:
+    HashGridSearch(const PhotonCloud& cloud, const PhotonMap& map, float cell_size);
+    void find(const Query& query, NearestPhotons& nearest) const;
+    vec3 position(const Query&, uint index) const { return positions_[index]; }
+
+  private:
+    struct Slot {
+        uint64_t key;
+        uint first, last;
+    };
+    const Slot* slot_of(glm::ivec3 cell) const;
+    void visit(glm::ivec3 cell, const Query& query, NearestPhotons& nearest) const;
+
+    const PhotonMap& map_;
+    float cell_size_;
+    std::vector<vec3> positions_, normals_;
+    std::vector<Slot> slots_;
+};
+
+}  // namespace lw
