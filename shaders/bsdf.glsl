@@ -58,3 +58,17 @@ vec3 thin_transmittance(Surface s, float cosine) LW_MEMBER {
     float passed = (1.0f - max(fresnel.x, max(fresnel.y, fresnel.z))) * s.transmission * (1.0f - s.metallic);
     return s.base_color * passed;
 }
+
+/// Directional albedo: the part of light from all sides alike that leaves towards the viewer, at cosine `nv` to the
+/// normal. The GGX part is the fit of Karis 2014, "Physically based shading on mobile".
+vec3 albedo_towards(Surface s, float nv) LW_MEMBER {
+    if ((s.flags & material_unlit) != 0u) return vec3(0.0f);
+    vec4 r = s.roughness * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
+    float a004 = min(r.x * r.x, pow(2.0f, -9.28f * nv)) * r.x + r.y;
+    float scale = -1.04f * a004 + r.z;
+    float offset = 1.04f * a004 + r.w;
+    vec3 dielectric = dielectric_f0(s) * scale + vec3(s.specular * offset);
+    vec3 metal = s.base_color * scale + vec3(offset);
+    float diffuse = (1.0f - max(dielectric.x, max(dielectric.y, dielectric.z))) * (1.0f - s.transmission);
+    return (s.base_color * diffuse + dielectric) * (1.0f - s.metallic) + metal * s.metallic;
+}

@@ -7,6 +7,9 @@
 namespace lw {
 #endif
 
+/// Set in the entries of triangles that may let light through: cut-outs, blends, thin glass.
+LW_CONST uint bvh_see_through = 0x80000000u;
+
 /// Next node is the following one when the box is hit and the node is inner, otherwise `skip`.
 struct BvhNode {
     vec3 low;

@@ -30,7 +30,7 @@ LW_CONST uint binding_fluxes = 17u;
 LW_CONST uint binding_directions = 18u;
 LW_CONST uint binding_bvh_nodes = 19u;
 LW_CONST uint binding_bvh_triangles = 20u;
-LW_CONST uint binding_coverage = 21u;
+LW_CONST uint binding_nodes = 21u;
 LW_CONST uint binding_emitters = 22u;
 LW_CONST uint binding_visible_lamps = 23u;
 LW_CONST uint scene_binding_count = 24u;
@@ -62,7 +62,10 @@ LW_CONST uint constant_heap_size = 13u;
 LW_CONST uint constant_has_direct = 14u;
 LW_CONST uint constant_has_coverage = 15u;
 LW_CONST uint constant_has_visible_lamps = 16u;
-LW_CONST uint constant_count = 17u;
+LW_CONST uint constant_has_mesh_lamps = 17u;
+LW_CONST uint constant_has_emissive_textures = 18u;
+LW_CONST uint constant_has_shadow_rays = 19u;
+LW_CONST uint constant_count = 20u;
 
 LW_CONST uint no_triangle = 0xffffffffu;
 
@@ -93,6 +96,7 @@ struct Frame {
     float ray_epsilon;    // m, what shadow rays start above their surface
     float scene_size;     // m, beyond which nothing stands
     uint shadow_rays;     // per emissive mesh
+    float inverse_irradiance_scale;
 };
 
 /// Push constants of the tone mapping pass.
@@ -104,7 +108,7 @@ struct Screen {
 
 #ifdef __cplusplus
 static_assert(sizeof(Lamp) == 76 && sizeof(Screen) == 12);
-static_assert(sizeof(Frame) == 112 && offsetof(Frame, shadow_rays) == 108);
+static_assert(sizeof(Frame) == 116 && offsetof(Frame, inverse_irradiance_scale) == 112);
 }  // namespace lw
 #else
 
@@ -125,6 +129,9 @@ layout(constant_id = constant_heap_size) const uint heap_size = 256u;
 layout(constant_id = constant_has_direct) const bool has_direct = true;
 layout(constant_id = constant_has_coverage) const bool has_coverage = true;
 layout(constant_id = constant_has_visible_lamps) const bool has_visible_lamps = true;
+layout(constant_id = constant_has_mesh_lamps) const bool has_mesh_lamps = true;
+layout(constant_id = constant_has_emissive_textures) const bool has_emissive_textures = true;
+layout(constant_id = constant_has_shadow_rays) const bool has_shadow_rays = true;
 
 #define LW_ARRAY(TYPE, NAME) \
     layout(set = 0, binding = binding_##NAME, scalar) readonly buffer NAME##_buffer { TYPE NAME[]; }

@@ -16,7 +16,7 @@ LW_ARRAY(uint, cell_starts);
 LW_ARRAY(BvhNode, bvh_nodes);
 LW_ARRAY(uint, bvh_triangles);
 LW_ARRAY(Emitter, emitters);
-LW_ARRAY(uint, coverage);
+LW_ARRAY(LatticeNode, nodes);
 LW_ARRAY(uint, visible_lamps);
 layout(set = 0, binding = binding_places, scalar) readonly buffer Places { PhotonPlace records[]; }
 places[most_place_chunks];
@@ -35,6 +35,7 @@ layout(set = 1, binding = binding_normal_depth, scalar) writeonly buffer NormalD
 #define ray_epsilon frame.ray_epsilon
 #define scene_size frame.scene_size
 #define shadow_rays frame.shadow_rays
+#define inverse_irradiance_scale frame.inverse_irradiance_scale
 #define light_count uint(lamps.length())
 #define bvh_node_count uint(bvh_nodes.length())
 
@@ -63,6 +64,10 @@ uint photon_direction(uint i) {
 }
 
 vec3 light_weight(uint light) { return lamps[light].weight; }
+
+uint node_coverage(uint node) { return nodes[node].coverage; }
+
+uint node_irradiance(uint node) { return nodes[node].irradiance; }
 
 Light light_at(uint i) { return lamps[i].light; }
 

@@ -1,7 +1,8 @@
 // Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
 // The including scope provides the arrays grids, cell_starts, the functions photon_place, photon_flux,
 // photon_direction, light_weight and the constants gather_mode, neighbours, heap_size, max_radius,
-// inverse_flux_scale, has_directions, has_coverage and with the latter the array coverage. Needs photon_map.h and bsdf.glsl.
+// inverse_flux_scale, inverse_irradiance_scale,
+// has_directions, has_coverage and the functions node_coverage, node_irradiance. Needs photon_map.h and bsdf.glsl.
 
 /// Adds photon `i`, weighted by `kernel` (1/m2).
 void add_photon(uint i, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
@@ -173,10 +174,25 @@ float coverage_at(SurfaceGrid grid, vec3 local, float radius) LW_MEMBER {
     vec2 f = vec2(0.0f);
     uint node = cell_node(lattice, local, f);
     float fraction = radius / grid.radius;
-    float below = mix(unpack_coverage(coverage[node], fraction), unpack_coverage(coverage[node + 1u], fraction), f.x);
+    float below = mix(unpack_coverage(node_coverage(node), fraction), unpack_coverage(node_coverage(node + 1u), fraction), f.x);
     node += lattice.columns;
-    float above = mix(unpack_coverage(coverage[node], fraction), unpack_coverage(coverage[node + 1u], fraction), f.x);
+    float above = mix(unpack_coverage(node_coverage(node), fraction), unpack_coverage(node_coverage(node + 1u), fraction), f.x);
     return max(mix(below, above, f.y), least_coverage);
+}
+
+/// The irradiance computed ahead at the nodes, all lamps at their present power; light from all sides alike for the BRDF.
+Gathered gather_cached(SurfaceGrid grid, vec3 local, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
+    vec2 f = vec2(0.0f);
+    uint node = cell_node(grid.lattice, local, f);
+    uint above = node + grid.lattice.columns;
+    vec3 low = mix(unpack_rgb9e5(node_irradiance(node)), unpack_rgb9e5(node_irradiance(node + 1u)), f.x);
+    vec3 high = mix(unpack_rgb9e5(node_irradiance(above)), unpack_rgb9e5(node_irradiance(above + 1u)), f.x);
+    Gathered sum;
+    sum.irradiance = mix(low, high, f.y) * inverse_irradiance_scale;
+    sum.radiance = sum.irradiance * albedo_towards(s, max(dot(n_shading, to_view), 0.0f)) / lw_pi;
+    sum.radius = 0.0f;
+    sum.photons = 0.0f;
+    return sum;
 }
 
 /// Reflected radiance and irradiance at surface `s` from the photons of `map`; zero when the map is no_map.
@@ -192,7 +208,8 @@ Gathered gather_photons(uint map, Surface s, vec3 n_geometric, vec3 n_shading, v
     }
     SurfaceGrid grid = grids[map];
     vec3 local = position_in_grid(grid, s.position);
-    if (gather_mode == 0u) return gather_exact(grid, local, s, n_geometric, n_shading, to_view);
+    if (gather_mode == gather_mode_cached) return gather_cached(grid, local, s, n_shading, to_view);
+    if (gather_mode == gather_mode_exact) return gather_exact(grid, local, s, n_geometric, n_shading, to_view);
     Gathered sum = gather_smooth(grid, local, s, n_geometric, n_shading, to_view);
     if (!has_coverage) return sum;
     float covered = coverage_at(grid, local, sum.radius);

@@ -45,18 +45,37 @@ LW_CONST uint coverage_levels = 4u;
 LW_CONST float coverage_unit = 160.0f;  // the byte of coverage 1
 LW_CONST float least_coverage = 0.05f;
 
-/// What the surroundings of a node see of a lamp, two bits; none of them: not known.
+/// What a node sees of a lamp, four bits: what its surroundings see, then what it sees itself. No bits: not known.
 LW_CONST uint some_visible = 1u;
 LW_CONST uint some_hidden = 2u;
-LW_INLINE uint visibility_words(uint lamps) { return (lamps + 15u) / 16u; }
-LW_INLINE uint visibility_word(uint lamp) { return lamp / 16u; }
-LW_INLINE uint visibility_shift(uint lamp) { return 2u * (lamp % 16u); }
+LW_CONST uint own_shift = 2u;
+LW_CONST uint lamps_per_word = 8u;
+LW_INLINE uint visibility_words(uint lamps) { return (lamps + lamps_per_word - 1u) / lamps_per_word; }
+LW_INLINE uint visibility_word(uint lamp) { return lamp / lamps_per_word; }
+LW_INLINE uint visibility_shift(uint lamp) { return 4u * (lamp % lamps_per_word); }
+
+/// The part of a lamp that a node sees itself, from its four bits.
+LW_INLINE float visible_part(uint bits) {
+    uint own = (bits >> own_shift) & 3u;
+    return own == some_visible ? 1.0f : own == some_hidden ? 0.0f : 0.5f;
+}
+
+/// What a frame reads of a node.
+struct LatticeNode {
+    uint coverage;    // see unpack_coverage()
+    uint irradiance;  // RGB9E5 of lux x scale, all lamps at their present power
+};
 
 /// Where a referenced photon lies in its map, and which light it came from (8 bytes).
 struct PhotonPlace {
     uint uv;                // 16 + 16 bits, steps of quantum.xy
     uint h_light_and_path;  // low 16: height step; high 16: light | path << 14
 };
+
+/// How photons become light.
+LW_CONST uint gather_mode_exact = 0u;   // the k nearest photons, with a heap: the paper's way
+LW_CONST uint gather_mode_smooth = 1u;  // bandwidth from cell counts, one pass with a smooth kernel
+LW_CONST uint gather_mode_cached = 2u;  // irradiance of the lattice nodes
 
 /// Photons cannot resolve a narrower lobe: below this glTF roughness the highlight is widened, which keeps its energy
 /// and trades its sharpness for freedom from blotches.

@@ -17,9 +17,10 @@
 namespace {
 
 struct Options {
-    std::string scene, map, output, camera, size, gather = "smooth", device;
+    std::string scene, map, output, camera, size, gather = "cached", device;
     std::vector<std::string> powers;
-    unsigned neighbours = lw::GatherSettings{}.neighbours, samples = 1, frames = 3;
+    unsigned neighbours = lw::GatherSettings{}.neighbours, samples = 1, frames = 3,
+             shadow_rays = lw::GatherSettings{}.shadow_rays;
     std::optional<float> exposure;
     bool list_cameras = false, list_lights = false, list_devices = false, validation = false;
     bool lists() const { return list_cameras || list_lights || list_devices; }
@@ -36,8 +37,13 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--neighbours", o.neighbours, "photons per estimate")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    app.add_option("--gather", o.gather, "smooth (fast) or exact (k nearest photons)")
-        ->check(CLI::IsMember({"smooth", "exact"}))
+    app.add_option("--gather", o.gather,
+                   "cached (irradiance of the bake), smooth (photons, one pass) or exact (k nearest photons)")
+        ->check(CLI::IsMember({"smooth", "exact", "cached"}))
+        ->capture_default_str();
+    app.add_option("--shadow-rays", o.shadow_rays,
+                   "shadow rays per pixel and emissive mesh; 0: none at all, shadows as sharp as the bake's lattice")
+        ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     app.add_option("--exposure", o.exposure, "EV100; default: from the picture");
     app.add_option("--samples", o.samples, "views averaged per pixel")
@@ -70,6 +76,10 @@ std::string misuse_of(const Options& o) {
     for (const std::string& power : o.powers)
         if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
     return "";
+}
+
+uint32_t gather_mode(const std::string& name) {
+    return name == "exact" ? lw::gather_mode_exact : name == "cached" ? lw::gather_mode_cached : lw::gather_mode_smooth;
 }
 
 void print_lists(const Options& o) {
@@ -119,7 +129,7 @@ void take_screenshot(const Options& o) {
     resident.set_light_factors(factors);
     const vk::Extent2D size = picture_size(o, camera);
     lw::Renderer renderer(device, resident, size.width, size.height);
-    const lw::GatherSettings gather{o.gather == "exact" ? 0u : 1u, o.neighbours};
+    const lw::GatherSettings gather{gather_mode(o.gather), o.neighbours, o.shadow_rays};
     const lw::Rendering picture = renderer.render(camera, {gather, o.exposure, o.samples, o.frames});
     refuse_validation_messages(device);
     write_picture(o.output, picture);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<char, 8> magic{'L', 'W', 'P', 'H', 'O', 'T', 'O', 'N'};
 constexpr uint32_t version = 2;
-constexpr size_t section_count = 9;
+constexpr size_t section_count = 10;
 
 /// The fixed head of the file; sections follow in this order, each `bytes` long.
 struct Header {
@@ -32,9 +32,11 @@ struct Header {
     float neighbour_angle_deg;
     float flux_scale;
     uint32_t direct_in_photons;
+    float irradiance_scale;
+    uint32_t reserved;
     std::array<uint64_t, section_count> bytes;
 };
-static_assert(sizeof(Header) == 144);
+static_assert(sizeof(Header) == 160);
 constexpr size_t checked_from = offsetof(Header, scene_hash);
 
 /// 64-bit hash in the order of the bytes; the last word is padded with zeros.
@@ -69,6 +71,7 @@ void for_each_section(Map& map, const Visit& visit) {
     visit(map.directions);
     visit(map.coverage);
     visit(map.visible_lamps);
+    visit(map.irradiance);
 }
 
 template <class T>
@@ -177,6 +180,8 @@ void save_photon_map(const std::filesystem::path& path, const PhotonMap& map) {
                   map.settings.neighbour_angle_deg,
                   map.flux_scale,
                   map.settings.direct_in_photons,
+                  map.irradiance_scale,
+                  0,
                   {}};
     size_t s = 0;
     for_each_section(map, [&](const auto& section) { header.bytes[s++] = byte_size(section); });
@@ -216,6 +221,7 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
                     header.direct_in_photons != 0};
     map.stored_photons = header.photons_stored;
     map.flux_scale = header.flux_scale;
+    map.irradiance_scale = header.irradiance_scale;
     size_t s = 0;
     for_each_section(map, [&](auto& section) {
         const uint64_t bytes = header.bytes[s++];
@@ -232,6 +238,9 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
     if (map.has_visible_lamps() &&
         map.visible_lamps.size() != map.coverage.size() * visibility_words(uint(scene.lights.size())))
         refuse(path, "lattices and lamp visibility do not agree");
+    if (map.irradiance.size() != map.coverage.size() * scene.lights.size() || !(map.irradiance_scale > 0) ||
+        !std::isfinite(map.irradiance_scale))
+        refuse(path, "lattices and irradiance do not agree");
     return map;
 }
 

@@ -61,6 +61,7 @@ Renderer::Renderer(const Device& device, const Resident& resident, uint width, u
 
 void Renderer::choose_gather(GatherSettings settings) {
     const bool same = gather_ && settings.mode == gather_settings_.mode &&
+                      (settings.shadow_rays > 0) == (gather_settings_.shadow_rays > 0) &&
                       (settings.mode != 0 || settings.neighbours == gather_settings_.neighbours);
     if (!same) gather_ = std::make_unique<GatherPass>(*device_, *resident_, picture_, settings);
     gather_settings_ = settings;
@@ -94,6 +95,7 @@ PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& set
         frame.ray_epsilon = resident_->ray_epsilon();
         frame.scene_size = resident_->scene_size();
         frame.shadow_rays = settings.gather.shadow_rays;
+        frame.inverse_irradiance_scale = resident_->inverse_irradiance_scale();
         frame.triangle_limit = resident_->triangle_count();
         submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
             using Stage = vk::PipelineStageFlagBits2;

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "base/error.h"
+#include "maps/irradiance.h"
 
 namespace lw {
 namespace {
@@ -66,6 +67,7 @@ void check_device(const Device& device, const Scene& scene, const PhotonMap& map
 Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh,
                    ResidentSettings settings)
     : device_(&device),
+      map_(&map),
       buffer_range_(settings.buffer_range ? settings.buffer_range : device.limits().maxStorageBufferRange),
       triangle_count_(uint(scene.triangles.size())),
       max_radius_(map.settings.radius),
@@ -100,7 +102,11 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map) {
     constants_[constant_has_directions] = map.has_directions();
     constants_[constant_has_alpha] = any_material(scene, material_alpha_mask | material_alpha_blend);
     constants_[constant_has_transmission] = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                                        [](const Material& m) { return m.transmission > 0.5f; });
+                                                        [](const Material& m) { return m.transmission > 0; });
+    constants_[constant_has_mesh_lamps] = !scene.emitters.empty();
+    constants_[constant_has_emissive_textures] =
+        std::any_of(scene.materials.begin(), scene.materials.end(),
+                    [](const Material& m) { return m.emissive_texture.texture >= 0; });
     constants_[constant_place_shift] = chunk_shift(buffer_range_, sizeof(PhotonPlace));
     constants_[constant_place_chunks] = chunk_count(map.places.size(), constants_[constant_place_shift]);
     constants_[constant_flux_shift] = chunk_shift(buffer_range_, sizeof(uint));
@@ -132,7 +138,9 @@ void Resident::upload_map(const PhotonMap& map) {
     upload_array<uint>(binding_cell_starts, map.cell_starts, "cells");
     upload_chunks<PhotonPlace>(binding_places, map.places, constants_[constant_place_shift], "photon places");
     upload_chunks<uint>(binding_fluxes, map.fluxes, constants_[constant_flux_shift], "photon fluxes");
-    upload_array<uint>(binding_coverage, map.coverage, "coverage");
+    const std::vector<LatticeNode> nodes(map.coverage.size());
+    upload_array<LatticeNode>(binding_nodes, nodes, "lattice nodes");
+    nodes_ = buffers_.size() - 1;
     upload_array<uint>(binding_visible_lamps, map.visible_lamps, "lamp visibility");
     upload_chunks<uint>(binding_directions, map.directions, constants_[constant_flux_shift], "photon directions");
 }
@@ -175,7 +183,19 @@ void Resident::set_light_factors(std::span<const float> factors) {
         lamp_states_[i].weight = lamp_states_[i].light.intensity * factors[i];
         lamp_states_[i].factor = factors[i];
     }
+    write_nodes();
     write_bytes(*device_, lamps_, lamp_states_.data(), lamp_states_.size() * sizeof(Lamp));
+}
+
+void Resident::write_nodes() {
+    if (!map_->has_coverage()) return;
+    std::vector<vec3> weights;
+    for (const Lamp& lamp : lamp_states_) weights.push_back(lamp.weight);
+    std::vector<uint> summed;
+    inverse_irradiance_scale_ = 1 / sum_irradiance(*map_, weights, summed);
+    std::vector<LatticeNode> nodes(summed.size());
+    for (size_t n = 0; n < nodes.size(); ++n) nodes[n] = {map_->coverage[n], summed[n]};
+    write_bytes(*device_, buffers_[nodes_], nodes.data(), nodes.size() * sizeof(LatticeNode));
 }
 
 uint64_t Resident::bytes() const {

@@ -20,9 +20,9 @@ struct ResidentSettings {
 
 class Resident {
   public:
-    /// Uploads everything; all lights at factor 1. A map without triangle_maps means no photons.
-    /// Throws Error saying which array does not fit, and what would.
-    /// `bvh` is empty when the photons hold the direct light.
+    /// Uploads everything; the map must outlive it. all lights at factor 1. A map without triangle_maps means no
+    /// photons. Throws Error saying which array does not fit, and what would. `bvh` is empty when the photons hold the
+    /// direct light.
     Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh = {},
              ResidentSettings settings = {});
 
@@ -36,6 +36,7 @@ class Resident {
     float max_radius() const { return max_radius_; }    // m
     float ray_epsilon() const { return ray_epsilon_; }  // m
     float scene_size() const { return scene_size_; }    // m
+    float inverse_irradiance_scale() const { return inverse_irradiance_scale_; }
     float inverse_flux_scale() const { return inverse_flux_scale_; }
     uint64_t bytes() const;  // GPU memory of all buffers
 
@@ -44,12 +45,14 @@ class Resident {
     void upload_scene(const Scene& scene);
     void upload_map(const PhotonMap& map);
     void upload_direct(const Scene& scene, const Bvh& bvh);
+    void write_nodes();
     template <class T>
     void upload_array(uint binding, std::span<const T> values, const std::string& what);
     template <class T>
     void upload_chunks(uint binding, std::span<const T> values, uint shift, const std::string& what);
 
     const Device* device_;
+    const PhotonMap* map_;
     uint64_t buffer_range_;
     ShaderConstants constants_{};
     uint triangle_count_;
@@ -61,6 +64,8 @@ class Resident {
     DescriptorSet descriptors_;
     std::vector<Buffer> buffers_;
     Buffer lamps_;
+    size_t nodes_ = 0;  // index of their buffer
+    float inverse_irradiance_scale_ = 1;
 };
 
 }  // namespace lw

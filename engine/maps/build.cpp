@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "maps/coverage.h"
+#include "maps/irradiance.h"
 #include "maps/packing.h"
 #include "maps/patches.h"
 #include "maps/references.h"
@@ -149,7 +150,7 @@ struct Partition {
 };
 
 /// Lays the lattices and finds their coverage. All lengths follow the largest radius R: nodes every 0.4 R, a sample
-/// every 0.03 R2 (26 under a kernel of R/2), surfaces closer than R/4 under another one are buried.
+/// every 0.03 R2 (26 under a kernel of R/2), then what the nodes see of the lamps and their irradiance.
 void add_coverage(const Scene& scene, const RayCaster& caster, const Partition& partition,
                   const std::vector<uint>& kept, PhotonMap& map) {
     const float radius = map.settings.radius;
@@ -157,11 +158,12 @@ void add_coverage(const Scene& scene, const RayCaster& caster, const Partition& 
     for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
     const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.4f * radius, map);
     const std::vector<Photon> samples =
-        sample_surfaces(scene, caster, partition.patches, 0.03f * radius * radius, 0.25f * radius);
+        sample_surfaces(scene, caster, partition.patches, 0.03f * radius * radius, clearance_of(radius));
     const References references = find_references(
         {scene, samples, partition.patches, partition.shapes, partition.radii, map.settings.neighbour_angle_deg});
     if (!map.settings.direct_in_photons) map.visible_lamps = find_visibility(scene, caster, map, nodes);
     map.coverage = find_coverage(scene, map, nodes, samples, references, kept);
+    map.irradiance = find_irradiance(scene, caster, map, nodes, map.irradiance_scale);
 }
 
 }  // namespace

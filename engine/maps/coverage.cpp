@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "scene/surface.h"
 #include "trace/sampling.h"
 
@@ -15,17 +14,6 @@ namespace {
 constexpr int rays_around = 4;
 constexpr double samples_of_patch = 64;
 using Levels = std::array<float, coverage_levels>;
-
-/// True when every one of a few rays into the hemisphere meets a surface closer than `clearance`.
-bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance, Rng& rng) {
-    const mat3 frame = frame_around(normal);
-    const vec3 origin = caster.offset(point, normal);
-    for (int i = 0; i < rays_around; ++i) {
-        const float u = (float(i) + rng.next()) / rays_around;
-        if (!caster.nearest(origin, frame * sample_cosine(u, rng.next()), clearance)) return false;
-    }
-    return true;
-}
 
 /// The samples that belong to one map, sorted into square cells of half the radius in the frame of its grid.
 class MapSamples {
@@ -118,6 +106,16 @@ uint pack_coverage(const Levels& levels) {
 }
 
 }  // namespace
+
+bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance, Rng& rng) {
+    const mat3 frame = frame_around(normal);
+    const vec3 origin = caster.offset(point, normal);
+    for (int i = 0; i < rays_around; ++i) {
+        const float u = (float(i) + rng.next()) / rays_around;
+        if (!caster.nearest(origin, frame * sample_cosine(u, rng.next()), clearance)) return false;
+    }
+    return true;
+}
 
 std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const Patches& patches, float area,
                                     float clearance) {

@@ -3,11 +3,18 @@
 #pragma once
 #include <vector>
 
+#include "base/random.h"
 #include "maps/lattice.h"
 #include "maps/references.h"
 #include "trace/ray_caster.h"
 
 namespace lw {
+
+/// Surfaces closer than this under another one get no light.
+inline float clearance_of(float radius) { return 0.25f * radius; }
+
+/// True when every one of a few rays into the hemisphere meets a surface closer than `clearance`.
+bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance, Rng& rng);
 
 /// Evenly spread points on both sides of all triangles, without those that lie closer than `clearance` metres under
 /// another surface all around: no light gets there. As photons whose flux is their area: `area` m2, or as little as

@@ -1,6 +1,7 @@
 // Density estimation and direct light on the CPU: the text of shaders/gather.glsl and direct.glsl over a PhotonMap; the
 // oracle of the gather shader.
 #pragma once
+#include "maps/irradiance.h"
 #include "maps/photon_map.h"
 #include "scene/bvh.h"
 #include "scene/surface.h"
@@ -9,9 +10,9 @@ namespace lw {
 
 /// How photons are turned into radiance; the same settings drive the gather shader.
 struct GatherSettings {
-    uint mode = 1;          // 0: exact k nearest neighbours, 1: smooth (bandwidth from cell counts, Epanechnikov)
+    uint mode = gather_mode_cached;
     uint neighbours = 300;  // photons per estimate
-    uint shadow_rays = 4;   // per emissive mesh
+    uint shadow_rays = 4;   // per emissive mesh; 0: no rays at all, shadows as sharp as the lattice
 };
 
 /// Photon estimate at surface points; read-only view, scene and map must outlive it.
@@ -33,7 +34,6 @@ class PhotonEstimator : public SurfaceReader {
           inverse_flux_scale(1.0f / map.flux_scale),
           has_directions(map.has_directions()),
           has_coverage(map.has_coverage()),
-          coverage(map.coverage.data()),
           has_visible_lamps(map.has_visible_lamps()),
           visible_lamps(map.visible_lamps.data()),
           lights(scene.lights.data()),
@@ -45,13 +45,19 @@ class PhotonEstimator : public SurfaceReader {
           scene_size(scene.size()),
           emitters(scene.emitters.data()),
           shadow_rays(settings.shadow_rays),
-          has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {}
+          has_shadow_rays(settings.shadow_rays > 0),
+          has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
+        if (gather_mode == gather_mode_cached)
+            inverse_irradiance_scale = 1 / sum_irradiance(map, light_weights, summed_irradiance_);
+    }
 
     PhotonPlace photon_place(uint i) const { return map_.places[i]; }
     uint photon_flux(uint i) const { return map_.fluxes[i]; }
     uint photon_direction(uint i) const { return map_.directions[i]; }
     vec3 light_weight(uint light) const { return weights_[light]; }
     Light light_at(uint i) const { return lights[i]; }
+    uint node_coverage(uint node) const { return map_.coverage[node]; }
+    uint node_irradiance(uint node) const { return summed_irradiance_[node]; }
 
 #include "shaders/direct.glsl"
 #include "shaders/gather.glsl"
@@ -84,7 +90,6 @@ class PhotonEstimator : public SurfaceReader {
     float max_radius;
     float inverse_flux_scale;
     bool has_directions, has_coverage;
-    const uint* coverage;
     bool has_visible_lamps;
     const uint* visible_lamps;
     const Light* lights;
@@ -94,7 +99,11 @@ class PhotonEstimator : public SurfaceReader {
     float ray_epsilon, scene_size;
     const Emitter* emitters;
     uint shadow_rays;
+    bool has_shadow_rays;
+    static constexpr bool has_mesh_lamps = true, has_emissive_textures = true;
     bool has_direct;
+    std::vector<uint> summed_irradiance_;  // cached mode only
+    float inverse_irradiance_scale = 1;
 };
 
 }  // namespace lw

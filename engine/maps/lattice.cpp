@@ -50,8 +50,9 @@ vec2 nearest_barycentrics(vec2 a, vec2 b, vec2 c, vec2& nearest) {
 }
 
 /// Offers one triangle side to the nodes around it.
-void place_nodes(const SurfaceLattice& lattice, const std::array<vec2, 3>& corners, uint triangle,
+void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& locals, uint triangle,
                  std::vector<NodePoint>& nodes) {
+    const std::array<vec2, 3> corners{vec2(locals[0]), vec2(locals[1]), vec2(locals[2])};
     const vec2 low = min(corners[0], min(corners[1], corners[2])), high = max(corners[0], max(corners[1], corners[2]));
     const auto node = [](float value, uint count) { return uint(clamp(value, 0.0f, float(count - 1))); };
     const uint x0 = node(std::floor(low.x / lattice.step.x), lattice.columns),
@@ -61,12 +62,14 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec2, 3>& corne
     for (uint y = y0; y <= y1; ++y)
         for (uint x = x0; x <= x1; ++x) {
             NodePoint& point = nodes[lattice.first_node + y * lattice.columns + x];
-            if (point.distance2 == 0) continue;
             const vec2 at = vec2(float(x), float(y)) * lattice.step;
             vec2 nearest;
             const vec2 weights = nearest_barycentrics(corners[0] - at, corners[1] - at, corners[2] - at, nearest);
             const float distance2 = dot(nearest, nearest);
-            if (distance2 < point.distance2) point = {triangle, weights, distance2};
+            const float height =
+                locals[0].z + weights.x * (locals[1].z - locals[0].z) + weights.y * (locals[2].z - locals[0].z);
+            if (distance2 < point.distance2 || (distance2 == point.distance2 && height > point.height))
+                point = {triangle, weights, distance2, height};
         }
 }
 
@@ -88,10 +91,11 @@ std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchS
         const SurfaceLattice& lattice = grid.lattice;
         for (uint i = sides.starts[m]; i < sides.starts[m + 1]; ++i) {
             const uint triangle = sides.sides[i] / 2;
-            std::array<vec2, 3> corners;
+            std::array<vec3, 3> corners;
             for (int c = 0; c < 3; ++c) {
                 const vec3 offset = scene.positions[scene.triangles[triangle][c]] - grid.origin;
-                corners[size_t(c)] = vec2(dot(offset, grid.u_axis), dot(offset, grid.v_axis)) - lattice.low;
+                corners[size_t(c)] = vec3(vec2(dot(offset, grid.u_axis), dot(offset, grid.v_axis)) - lattice.low,
+                                          dot(offset, grid.normal));
             }
             place_nodes(lattice, corners, triangle, nodes);
         }

@@ -13,6 +13,7 @@ struct NodePoint {
     uint triangle = no_map;
     vec2 barycentrics{0};
     float distance2 = 1e30f;  // m2, in projection; 0 when the node lies over the surface
+    float height = -1e30f;    // m, over the grid's origin; where sheets overlap the highest is the one that is seen
 
     bool exists() const { return triangle != no_map; }
 };

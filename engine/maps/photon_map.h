@@ -34,6 +34,8 @@ struct PhotonMap {
     std::vector<uint> coverage;  // per node of the lattices of all maps, see unpack_coverage()
     std::vector<uint>
         visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all light
+    std::vector<uint> irradiance;  // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
+    float irradiance_scale = 1;
 
     bool has_directions() const { return !directions.empty(); }
     bool has_coverage() const { return !coverage.empty(); }

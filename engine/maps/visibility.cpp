@@ -44,9 +44,11 @@ class LampRays {
     Emitters emitters_;
 };
 
-/// Joins the words of each node with those of its neighbours.
+/// Adds what each node sees to its surroundings' bits, and to its own.
 void spread(const SurfaceLattice& lattice, uint words, const std::vector<uint>& own, std::vector<uint>& joined) {
     const int columns = int(lattice.columns), rows = int(lattice.rows);
+    for (uint i = lattice.first_node * words; i < (lattice.first_node + lattice.columns * lattice.rows) * words; ++i)
+        joined[i] |= own[i] << own_shift;
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x)
             for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, rows - 1); ++ny)

@@ -8,9 +8,9 @@
 
 namespace lw {
 
-/// Two bits per node and lamp (visibility_word() and after in shaders/photon_map.h), visibility_words(lamps) words per
-/// node; the bits of a node are those of its 3 x 3 neighbourhood together, so that narrow shadows are not missed.
-/// One ray per node for point, spot and directional lamps, a few for meshes. Nodes without a point have no bits.
+/// Four bits per node and lamp (some_visible and after in shaders/photon_map.h), visibility_words(lamps) words per
+/// node; the surroundings are the 3 x 3 nodes around, so that narrow shadows are not missed. One ray per node for
+/// point, spot and directional lamps, a few for meshes. Nodes without a point have no bits.
 std::vector<uint> find_visibility(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
                                   const std::vector<NodePoint>& nodes);
 

@@ -9,7 +9,7 @@ namespace lw {
 /// Empty when no shadow ray is ever traced.
 struct Bvh {
     std::vector<BvhNode> nodes;   // depth first
-    std::vector<uint> triangles;  // triangle ids in leaf order
+    std::vector<uint> triangles;  // triangle ids in leaf order, with bvh_see_through
 };
 
 }  // namespace lw

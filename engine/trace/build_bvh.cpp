@@ -16,6 +16,7 @@ namespace lw {
 namespace {
 
 constexpr unsigned most_in_leaf = 4;
+constexpr uint see_through_flags = material_alpha_mask | material_alpha_blend | material_thin;
 
 /// A node of Embree's builder before it is laid out depth first.
 struct BuiltNode {
@@ -54,7 +55,9 @@ std::vector<RTCBuildPrimitive> primitives_of(const Scene& scene) {
         const vec3 a = scene.positions[corner.x], b = scene.positions[corner.y], c = scene.positions[corner.z];
         if (!(length(cross(b - a, c - a)) > 0)) continue;
         const vec3 low = min(a, min(b, c)), high = max(a, max(b, c));
-        primitives.push_back({low.x, low.y, low.z, 0, high.x, high.y, high.z, unsigned(t)});
+        const bool opaque = !(scene.material_of(uint(t)).flags & see_through_flags);
+        const unsigned entry = unsigned(t) | (opaque ? 0 : bvh_see_through);
+        primitives.push_back({low.x, low.y, low.z, 0, high.x, high.y, high.z, entry});
     }
     return primitives;
 }

@@ -54,7 +54,7 @@ TEST(NeighbourSearch, FourStructuresFindTheSamePhotonsOnAFlatFloor) {
     BakeSettings bake;
     bake.photons = 200'000;
     const Photons photons = shoot_photons(room, caster, {bake.photons, 1, true});
-    const PhotonMap map = build_photon_map(room, photons, bake);
+    const PhotonMap map = build_photon_map(room, caster, photons, bake);
     const PhotonCloud cloud(room, photons.records);
     const MapGridSearch grid(map);
     const MapTreeSearch trees(map);

@@ -72,12 +72,14 @@ TEST(Agreement, ShaderEqualsCpuEstimateInTheCornellBox) {
     const Baked baked("cornell.gltf", 100000);
     expect_same(baked, 0, 64, 64);
     expect_same(baked, 1, 64, 64);
+    expect_same(baked, 2, 64, 64);
 }
 
 TEST(Agreement, ShaderEqualsCpuEstimateInTheFurnishedRoom) {
     const Baked baked("apartment.glb", 200000);
     expect_same(baked, 0, 96, 54);
     expect_same(baked, 1, 96, 54);
+    expect_same(baked, 2, 96, 54);
 }
 
 /// True when the pixels around (x, y) lie on one plane, so that no kernel there crosses a border.

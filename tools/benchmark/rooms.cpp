@@ -179,8 +179,9 @@ void add_panel(Scene& scene, RoomMaker& maker, uint i, uint count) {
     const auto first = uint(scene.triangles.size());
     const vec3 half(0.5f * panel_side, 0, 0.5f * panel_side);
     maker.add_quad({light.position - half, vec3(panel_side, 0, 0), vec3(0, 0, panel_side)});
-    for (uint t = first; t < scene.triangles.size(); ++t) scene.emitters.push_back(t);
     light.emitter_count = uint(scene.triangles.size()) - first;
+    for (uint t = 0; t < light.emitter_count; ++t)  // triangles of equal area
+        scene.emitters.push_back({first + t, light.area * float(t + 1) / float(light.emitter_count)});
     scene.lights.push_back(light);
     scene.light_names.push_back("panel" + std::to_string(i));
 }
