@@ -65,7 +65,9 @@ LW_CONST uint constant_has_visible_lamps = 16u;
 LW_CONST uint constant_has_mesh_lamps = 17u;
 LW_CONST uint constant_has_emissive_textures = 18u;
 LW_CONST uint constant_has_shadow_rays = 19u;
-LW_CONST uint constant_count = 20u;
+LW_CONST uint constant_has_metallic_roughness_textures = 20u;
+LW_CONST uint constant_has_transmission_textures = 21u;
+LW_CONST uint constant_count = 22u;
 
 LW_CONST uint no_triangle = 0xffffffffu;
 
@@ -130,6 +132,8 @@ layout(constant_id = constant_has_direct) const bool has_direct = true;
 layout(constant_id = constant_has_coverage) const bool has_coverage = true;
 layout(constant_id = constant_has_visible_lamps) const bool has_visible_lamps = true;
 layout(constant_id = constant_has_mesh_lamps) const bool has_mesh_lamps = true;
+layout(constant_id = constant_has_metallic_roughness_textures) const bool has_metallic_roughness_textures = true;
+layout(constant_id = constant_has_transmission_textures) const bool has_transmission_textures = true;
 layout(constant_id = constant_has_emissive_textures) const bool has_emissive_textures = true;
 layout(constant_id = constant_has_shadow_rays) const bool has_shadow_rays = true;
 

@@ -1,7 +1,7 @@
 // What lies at (triangle, barycentrics): position, normals and material parameters.
 // One text for C++ and GLSL. The including scope provides the arrays positions, normals, uv0, uv1, colors, tangents,
 // triangles, triangle_objects, objects, materials, textures, texels and the constants has_uv0, has_uv1, has_colors,
-// has_tangents, has_textures.
+// has_tangents, has_textures (any), has_metallic_roughness_textures, has_emissive_textures, has_transmission_textures.
 
 float srgb_to_linear(float c) LW_MEMBER { return c <= 0.04045f ? c / 12.92f : pow((c + 0.055f) / 1.055f, 2.4f); }
 
@@ -90,16 +90,16 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
             s.base_color *= vec3(c.x, c.y, c.z);
             s.alpha *= c.w;
         }
-        if (m.metallic_roughness_texture.texture >= 0) {
+        if (has_metallic_roughness_textures && m.metallic_roughness_texture.texture >= 0) {
             vec4 c = sample_texture(m.metallic_roughness_texture, first_uv, second_uv);
             s.roughness *= c.y;
             s.metallic *= c.z;
         }
-        if (m.emissive_texture.texture >= 0) {
+        if (has_emissive_textures && m.emissive_texture.texture >= 0) {
             vec4 c = sample_texture(m.emissive_texture, first_uv, second_uv);
             s.emissive *= vec3(c.x, c.y, c.z);
         }
-        if (m.transmission_texture.texture >= 0)
+        if (has_transmission_textures && m.transmission_texture.texture >= 0)
             s.transmission *= sample_texture(m.transmission_texture, first_uv, second_uv).x;
         if (has_tangents && m.normal_texture.texture >= 0) {
             vec4 c = sample_texture(m.normal_texture, first_uv, second_uv);

@@ -42,6 +42,11 @@ bool any_material(const Scene& scene, uint flags) {
 }
 
 /// Bytes that the map and the scene take on the device.
+bool any_texture(const Scene& scene, TextureSlot Material::*slot) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [=](const Material& m) { return (m.*slot).texture >= 0; });
+}
+
 uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
     return bytes(s.positions) + bytes(s.normals) + bytes(s.uv0) + bytes(s.uv1) + bytes(s.colors) + bytes(s.tangents) +
@@ -104,9 +109,9 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map) {
     constants_[constant_has_transmission] = std::any_of(scene.materials.begin(), scene.materials.end(),
                                                         [](const Material& m) { return m.transmission > 0; });
     constants_[constant_has_mesh_lamps] = !scene.emitters.empty();
-    constants_[constant_has_emissive_textures] =
-        std::any_of(scene.materials.begin(), scene.materials.end(),
-                    [](const Material& m) { return m.emissive_texture.texture >= 0; });
+    constants_[constant_has_metallic_roughness_textures] = any_texture(scene, &Material::metallic_roughness_texture);
+    constants_[constant_has_emissive_textures] = any_texture(scene, &Material::emissive_texture);
+    constants_[constant_has_transmission_textures] = any_texture(scene, &Material::transmission_texture);
     constants_[constant_place_shift] = chunk_shift(buffer_range_, sizeof(PhotonPlace));
     constants_[constant_place_chunks] = chunk_count(map.places.size(), constants_[constant_place_shift]);
     constants_[constant_flux_shift] = chunk_shift(buffer_range_, sizeof(uint));

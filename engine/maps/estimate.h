@@ -100,7 +100,7 @@ class PhotonEstimator : public SurfaceReader {
     const Emitter* emitters;
     uint shadow_rays;
     bool has_shadow_rays;
-    static constexpr bool has_mesh_lamps = true, has_emissive_textures = true;
+    static constexpr bool has_mesh_lamps = true;
     bool has_direct;
     std::vector<uint> summed_irradiance_;  // cached mode only
     float inverse_irradiance_scale = 1;

@@ -34,6 +34,8 @@ class SurfaceReader {
   protected:
     static constexpr bool has_alpha = true;  // the CPU asks the material
     static constexpr bool has_transmission = true;
+    static constexpr bool has_metallic_roughness_textures = true, has_emissive_textures = true,
+                          has_transmission_textures = true;
 
     const vec3* positions;
     const vec3* normals;
