@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <optional>
 
 #include "base/error.h"
@@ -28,17 +29,20 @@ struct Options {
     unsigned threads = 0;
 };
 
-/// Seconds since the last call, printed with the name of the phase that ended.
+/// Seconds since the last call, of the clock and of all processor cores, printed with the name of the phase that ended.
 class PhaseClock {
   public:
     void finish(const char* phase) {
         const Clock::time_point now = Clock::now();
-        std::printf("  %-12s %7.2f s\n", phase, std::chrono::duration<double>(now - last_).count());
-        last_ = now;
+        const std::clock_t cpu = std::clock();
+        std::printf("  %-12s %7.2f s  %7.2f CPU s\n", phase, std::chrono::duration<double>(now - last_).count(),
+                    double(cpu - last_cpu_) / CLOCKS_PER_SEC);
+        last_ = now, last_cpu_ = cpu;
     }
 
   private:
     Clock::time_point last_ = Clock::now();
+    std::clock_t last_cpu_ = std::clock();
 };
 
 /// Metres, 0 for auto, nothing when the text is neither.
