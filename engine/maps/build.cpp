@@ -132,18 +132,25 @@ namespace {
 /// The patches for one largest radius, and a radius for each: small patches get a smaller one until references per
 /// photon stay below the bound.
 struct Partition {
+    static constexpr float largest_floor = 0.5f;  // of the radius
+
     Partition(const Scene& scene, const Photons& photons, const BakeSettings& settings)
-        : patches(group_triangles(scene, patch_size_in_radii * settings.radius)), shapes(shapes_of(scene, patches)) {
-        float floor = 0.5f * settings.radius;
+        : patches(group_triangles(scene, patch_size_in_radii * settings.radius)),
+          shapes(shapes_of(scene, patches)),
+          neighbours(shapes, patch_radii(shapes, settings.radius, largest_floor * settings.radius),
+                     settings.neighbour_angle_deg, settings.radius) {
+        float floor = largest_floor * settings.radius;
         for (int tries = 0; tries < 16; ++tries, floor *= 0.75f) {
             radii = patch_radii(shapes, settings.radius, floor);
-            if (sample_references({scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg},
-                                  20000) < references_per_photon)
+            if (sample_references(
+                    {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours}, 20000) <
+                references_per_photon)
                 break;
         }
     }
     Patches patches;
     std::vector<PatchShape> shapes;
+    Neighbours neighbours;
     std::vector<float> radii;
 };
 
@@ -157,8 +164,8 @@ void add_coverage(const Scene& scene, const RayCaster& caster, const Partition& 
     const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.4f * radius, map);
     const std::vector<Photon> samples =
         sample_surfaces(scene, caster, 0.03 * double(radius) * double(radius), 0.25f * radius);
-    const References references = find_references(
-        {scene, samples, partition.patches, partition.shapes, partition.radii, map.settings.neighbour_angle_deg});
+    const References references = find_references({scene, samples, partition.patches, partition.shapes, partition.radii,
+                                                   map.settings.neighbour_angle_deg, partition.neighbours});
     map.coverage = find_coverage(scene, map, nodes, samples, references, kept);
 }
 
@@ -174,8 +181,9 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     for (const LightBalance& light : photons.lights) map.emitted.push_back(light.emitted);
 
     const Partition partition(scene, photons, settings);
-    const References references = find_references(
-        {scene, photons.records, partition.patches, partition.shapes, partition.radii, settings.neighbour_angle_deg});
+    const References references =
+        find_references({scene, photons.records, partition.patches, partition.shapes, partition.radii,
+                         settings.neighbour_angle_deg, partition.neighbours});
     const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map);
     const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
     const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
