@@ -27,8 +27,27 @@ SurfaceGrid frame_of(const PatchShape& shape, float radius) {
     return grid;
 }
 
+/// What a map keeps of a photon, packed once for all maps that refer to it.
+struct Record {
+    vec3 position;
+    uint origin, flux, direction;
+};
+
+std::vector<Record> pack_photons(const std::vector<Photon>& photons, float flux_scale, bool directions) {
+    std::vector<Record> records(photons.size());
+    parallel_for(
+        photons.size(),
+        [&](size_t i) {
+            const Photon& p = photons[i];
+            records[i] = {p.position, p.origin, pack_rgb9e5(p.flux * flux_scale),
+                          directions ? pack_direction(p.from) : 0};
+        },
+        4096);
+    return records;
+}
+
 /// Moves the origin to the corner of the photons' bounds and sets quantum and cells for `count` references.
-void fit_grid(SurfaceGrid& grid, const std::vector<Photon>& photons, const uint* first, const uint* last) {
+void fit_grid(SurfaceGrid& grid, const std::vector<Record>& photons, const uint* first, const uint* last) {
     vec3 low(1e30f), high(-1e30f);
     for (const uint* i = first; i != last; ++i) {
         const vec3 offset = photons[*i].position - grid.origin;
@@ -50,10 +69,14 @@ void fit_grid(SurfaceGrid& grid, const std::vector<Photon>& photons, const uint*
     grid.rows = uint(std::max(1.0, std::ceil(double(extent.y) / double(grid.cell_size))));
 }
 
-PhotonPlace place_of(const Photon& photon, const SurfaceGrid& grid) {
+PhotonPlace place_of(const Record& photon, const SurfaceGrid& grid) {
     const vec3 offset = photon.position - grid.origin;
     const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal) - grid.h_origin);
-    const auto step = [](float v, float quantum) { return uint(clamp(std::round(v / quantum), 0.0f, 65535.0f)); };
+    const auto step = [](float v, float quantum) {  // rounded to nearest
+        const float steps = std::min(std::max(v / quantum, 0.0f), 65535.0f);
+        const int below = int(steps);
+        return uint(below) + (steps - float(below) >= 0.5f ? 1u : 0u);
+    };
     return {step(local.x, grid.quantum.x) | step(local.y, grid.quantum.y) << 16,
             step(local.z, grid.quantum.z) | (photon.origin & 0xffffu) << 16};
 }
@@ -66,25 +89,27 @@ uint cell_of(PhotonPlace place, const SurfaceGrid& grid) {
 }
 
 /// Writes the records of one map in cell order.
-void fill_grid(PhotonMap& map, uint index, const std::vector<Photon>& photons, const uint* first, const uint* last,
+void fill_grid(PhotonMap& map, uint index, const std::vector<Record>& photons, const uint* first, const uint* last,
                uint begin) {
     const SurfaceGrid& grid = map.grids[index];
     const size_t count = size_t(last - first);
     std::vector<PhotonPlace> places(count);
+    std::vector<uint> cells(count);
     std::vector<uint> next(grid.columns * grid.rows + 1, 0);
     for (size_t i = 0; i < count; ++i) {
         places[i] = place_of(photons[first[i]], grid);
-        ++next[cell_of(places[i], grid) + 1];
+        cells[i] = cell_of(places[i], grid);
+        ++next[cells[i] + 1];
     }
     next[0] = begin;
     for (size_t c = 1; c < next.size(); ++c) next[c] += next[c - 1];
     std::copy(next.begin(), next.end() - 1, map.cell_starts.begin() + grid.first_cell);
     for (size_t i = 0; i < count; ++i) {
-        const Photon& photon = photons[first[i]];
-        const uint slot = next[cell_of(places[i], grid)]++;
+        const Record& photon = photons[first[i]];
+        const uint slot = next[cells[i]]++;
         map.places[slot] = places[i];
-        map.fluxes[slot] = pack_rgb9e5(photon.flux * map.flux_scale);
-        if (map.has_directions()) map.directions[slot] = pack_direction(photon.from);
+        map.fluxes[slot] = photon.flux;
+        if (map.has_directions()) map.directions[slot] = photon.direction;
     }
 }
 
@@ -188,10 +213,12 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
     const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
 
+    const bool directions = needs_directions(scene);
+    const std::vector<Record> records = pack_photons(photons.records, map.flux_scale, directions);
     map.grids.resize(kept.size());
     parallel_for(kept.size(), [&](size_t m) {
         map.grids[m] = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
-        fit_grid(map.grids[m], photons.records, first(m), last(m));
+        fit_grid(map.grids[m], records, first(m), last(m));
     });
     uint cells = 0;
     for (SurfaceGrid& grid : map.grids) {
@@ -201,9 +228,9 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     map.cell_starts.assign(cells + 1, uint(references.photons.size()));
     map.places.resize(references.photons.size());
     map.fluxes.resize(references.photons.size());
-    if (needs_directions(scene)) map.directions.resize(references.photons.size());
+    if (directions) map.directions.resize(references.photons.size());
     parallel_for(kept.size(), [&](size_t m) {
-        fill_grid(map, uint(m), photons.records, first(m), last(m), uint(references.starts[kept[m]]));
+        fill_grid(map, uint(m), records, first(m), last(m), uint(references.starts[kept[m]]));
     });
     add_coverage(scene, caster, partition, kept, map);
     return map;
