@@ -31,24 +31,29 @@ class MapSamples {
   public:
     MapSamples(const SurfaceGrid& grid, const std::vector<Photon>& samples, const uint* first, const uint* last)
         : cell_(grid.radius * 0.5f), radius_(grid.radius) {
+        for (uint level = 0; level < coverage_levels; ++level) {
+            const float r = radius_ * float(level + 1) / float(coverage_levels);
+            radii2_[level] = r * r;
+            peaks_[level] = first == last ? 0 : samples[*first].flux.x * 2 / (lw_pi * radii2_[level]);
+        }
         vec2 high(-1e30f);
         low_ = vec2(1e30f);
-        std::vector<vec4> unsorted;
+        std::vector<vec3> unsorted;
         for (const uint* i = first; i != last; ++i) {
             const vec3 offset = samples[*i].position - grid.origin;
             const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
-            unsorted.emplace_back(local, samples[*i].flux.x);
+            unsorted.push_back(local);
             low_ = min(low_, vec2(local.x, local.y)), high = max(high, vec2(local.x, local.y));
         }
         if (unsorted.empty()) return;
         columns_ = int((high.x - low_.x) / cell_) + 1;
         rows_ = int((high.y - low_.y) / cell_) + 1;
         starts_.assign(size_t(columns_) * size_t(rows_) + 1, 0);
-        for (const vec4& s : unsorted) ++starts_[cell_of(s) + 1];
+        for (vec3 s : unsorted) ++starts_[cell_of(s) + 1];
         for (size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
         std::vector<uint> next(starts_.begin(), starts_.end() - 1);
         sorted_.resize(unsorted.size());
-        for (const vec4& s : unsorted) sorted_[next[cell_of(s)]++] = s;
+        for (vec3 s : unsorted) sorted_[next[cell_of(s)]++] = s;
     }
 
     /// Sum of area x kernel at `local`, for the kernels of all levels.
@@ -67,26 +72,24 @@ class MapSamples {
   private:
     int column(float u) const { return int(std::floor((u - low_.x) / cell_)); }
     int row(float v) const { return int(std::floor((v - low_.y) / cell_)); }
-    size_t cell_of(const vec4& s) const {
+    size_t cell_of(vec3 s) const {
         return size_t(std::min(row(s.y), rows_ - 1)) * size_t(columns_) + size_t(std::min(column(s.x), columns_ - 1));
     }
 
-    void add_kernels(const vec4& sample, vec3 local, float max_radius, Levels& sums) const {
-        const vec3 d = vec3(sample) - local;
+    void add_kernels(vec3 sample, vec3 local, float max_radius, Levels& sums) const {
+        const vec3 d = sample - local;
         const float d2 = dot(d, d);
         if (d2 >= radius_ * radius_ || !on_same_surface(d.z, d2, max_radius)) return;
-        for (uint level = coverage_levels; level-- > 0;) {
-            const float r = radius_ * float(level + 1) / float(coverage_levels), r2 = r * r;
-            if (d2 >= r2) break;
-            sums[level] += sample.w * 2 / (lw_pi * r2) * (1 - d2 / r2);
-        }
+        for (uint level = coverage_levels; level-- > 0 && d2 < radii2_[level];)
+            sums[level] += peaks_[level] * (1 - d2 / radii2_[level]);
     }
 
     float cell_, radius_;
+    Levels radii2_{}, peaks_{};  // m2 of each kernel, and its value times the area of a sample at its centre
     vec2 low_{0};
     int columns_ = 0, rows_ = 0;
     std::vector<uint> starts_;
-    std::vector<vec4> sorted_;  // u, v, h, area
+    std::vector<vec3> sorted_;  // u, v, h
 };
 
 uint pack_coverage(const Levels& levels) {
@@ -113,20 +116,23 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
         waiting -= counts[t];
     }
     std::vector<std::vector<Photon>> chunks((counts.size() + chunk - 1) / chunk);
-    const SurfaceReader surfaces(scene);
     parallel_for(chunks.size(), [&](size_t k) {
-        for (size_t t = k * chunk; t < std::min(counts.size(), (k + 1) * chunk); ++t)
+        for (size_t t = k * chunk; t < std::min(counts.size(), (k + 1) * chunk); ++t) {
+            const auto scramble = uint32_t(mix64(t));
+            const uvec3 c = scene.triangles[t];
+            const vec3 p0 = scene.positions[c.x], p1 = scene.positions[c.y], p2 = scene.positions[c.z];
+            const vec3 product = cross(p1 - p0, p2 - p0);
             for (uint i = 0; i < counts[t]; ++i) {
-                const auto scramble = uint32_t(mix64(t));
                 const vec2 place = sample_triangle(sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
-                const Surface s = surfaces.surface_at(uint(t), place);
+                const vec3 position = (1 - place.x - place.y) * p0 + place.x * p1 + place.y * p2;
                 for (uint side = 0; side < 2; ++side) {
-                    const vec3 n = side ? -s.geometric_normal : s.geometric_normal;
+                    const vec3 n = product / (side ? -length(product) : length(product));
                     Rng rng(1, 2 * t + side, i);
-                    if (is_buried(caster, s.position, n, clearance, rng)) continue;
-                    chunks[k].push_back({s.position, vec3(shares[t]), n, uint(t), pack_origin(0, path_direct, side)});
+                    if (is_buried(caster, position, n, clearance, rng)) continue;
+                    chunks[k].push_back({position, vec3(shares[t]), n, uint(t), pack_origin(0, path_direct, side)});
                 }
             }
+        }
     });
     std::vector<Photon> samples;
     for (const auto& part : chunks) samples.insert(samples.end(), part.begin(), part.end());
