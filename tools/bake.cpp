@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <optional>
 
 #include "base/error.h"
@@ -28,17 +29,20 @@ struct Options {
     unsigned threads = 0;
 };
 
-/// Seconds since the last call, printed with the name of the phase that ended.
+/// Seconds since the last call, of the clock and of all processor cores, printed with the name of the phase that ended.
 class PhaseClock {
   public:
     void finish(const char* phase) {
         const Clock::time_point now = Clock::now();
-        std::printf("  %-12s %7.2f s\n", phase, std::chrono::duration<double>(now - last_).count());
-        last_ = now;
+        const std::clock_t cpu = std::clock();
+        std::printf("  %-12s %7.2f s  %7.2f CPU s\n", phase, std::chrono::duration<double>(now - last_).count(),
+                    double(cpu - last_cpu_) / CLOCKS_PER_SEC);
+        last_ = now, last_cpu_ = cpu;
     }
 
   private:
     Clock::time_point last_ = Clock::now();
+    std::clock_t last_cpu_ = std::clock();
 };
 
 /// Metres, 0 for auto, nothing when the text is neither.
@@ -70,8 +74,7 @@ void print_lights(const lw::Scene& scene, const lw::Photons& photons) {
 }
 
 void print_map(const lw::PhotonMap& map, size_t triangles) {
-    const size_t bytes = map.places.size() * (8 + 4 + (map.has_directions() ? 4 : 0)) + map.cell_starts.size() * 4 +
-                         map.grids.size() * sizeof(lw::SurfaceGrid) + map.triangle_maps.size() * 4;
+    const uint64_t bytes = map.bytes();
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     std::printf("%zu triangles, %zu maps, radius %.4g m, %.3f references per photon\n", triangles, map.grids.size(),

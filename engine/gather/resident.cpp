@@ -50,9 +50,7 @@ bool any_texture(const Scene& scene, TextureSlot Material::*slot) {
 uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
     return bytes(s.positions) + bytes(s.normals) + bytes(s.uv0) + bytes(s.uv1) + bytes(s.colors) + bytes(s.tangents) +
-           bytes(s.triangles) + bytes(s.triangle_objects) + bytes(s.texels) + bytes(m.triangle_maps) + bytes(m.grids) +
-           bytes(m.cell_starts) + bytes(m.places) + bytes(m.fluxes) + bytes(m.directions) + bytes(m.coverage) +
-           bytes(m.visible_lamps);
+           bytes(s.triangles) + bytes(s.triangle_objects) + bytes(s.texels) + m.bytes();
 }
 
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map) {

@@ -29,8 +29,27 @@ SurfaceGrid frame_of(const PatchShape& shape, float radius) {
     return grid;
 }
 
+/// What a map keeps of a photon, packed once for all maps that refer to it.
+struct Record {
+    vec3 position;
+    uint origin, flux, direction;
+};
+
+std::vector<Record> pack_photons(const std::vector<Photon>& photons, float flux_scale, bool directions) {
+    std::vector<Record> records(photons.size());
+    parallel_for(
+        photons.size(),
+        [&](size_t i) {
+            const Photon& p = photons[i];
+            records[i] = {p.position, p.origin, pack_rgb9e5(p.flux * flux_scale),
+                          directions ? pack_direction(p.from) : 0};
+        },
+        4096);
+    return records;
+}
+
 /// Moves the origin to the corner of the photons' bounds and sets quantum and cells for `count` references.
-void fit_grid(SurfaceGrid& grid, const std::vector<Photon>& photons, const uint* first, const uint* last) {
+void fit_grid(SurfaceGrid& grid, const std::vector<Record>& photons, const uint* first, const uint* last) {
     vec3 low(1e30f), high(-1e30f);
     for (const uint* i = first; i != last; ++i) {
         const vec3 offset = photons[*i].position - grid.origin;
@@ -52,10 +71,14 @@ void fit_grid(SurfaceGrid& grid, const std::vector<Photon>& photons, const uint*
     grid.rows = uint(std::max(1.0, std::ceil(double(extent.y) / double(grid.cell_size))));
 }
 
-PhotonPlace place_of(const Photon& photon, const SurfaceGrid& grid) {
+PhotonPlace place_of(const Record& photon, const SurfaceGrid& grid) {
     const vec3 offset = photon.position - grid.origin;
     const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal) - grid.h_origin);
-    const auto step = [](float v, float quantum) { return uint(clamp(std::round(v / quantum), 0.0f, 65535.0f)); };
+    const auto step = [](float v, float quantum) {  // rounded to nearest
+        const float steps = std::min(std::max(v / quantum, 0.0f), 65535.0f);
+        const int below = int(steps);
+        return uint(below) + (steps - float(below) >= 0.5f ? 1u : 0u);
+    };
     return {step(local.x, grid.quantum.x) | step(local.y, grid.quantum.y) << 16,
             step(local.z, grid.quantum.z) | (photon.origin & 0xffffu) << 16};
 }
@@ -68,25 +91,27 @@ uint cell_of(PhotonPlace place, const SurfaceGrid& grid) {
 }
 
 /// Writes the records of one map in cell order.
-void fill_grid(PhotonMap& map, uint index, const std::vector<Photon>& photons, const uint* first, const uint* last,
+void fill_grid(PhotonMap& map, uint index, const std::vector<Record>& photons, const uint* first, const uint* last,
                uint begin) {
     const SurfaceGrid& grid = map.grids[index];
     const size_t count = size_t(last - first);
     std::vector<PhotonPlace> places(count);
+    std::vector<uint> cells(count);
     std::vector<uint> next(grid.columns * grid.rows + 1, 0);
     for (size_t i = 0; i < count; ++i) {
         places[i] = place_of(photons[first[i]], grid);
-        ++next[cell_of(places[i], grid) + 1];
+        cells[i] = cell_of(places[i], grid);
+        ++next[cells[i] + 1];
     }
     next[0] = begin;
     for (size_t c = 1; c < next.size(); ++c) next[c] += next[c - 1];
     std::copy(next.begin(), next.end() - 1, map.cell_starts.begin() + grid.first_cell);
     for (size_t i = 0; i < count; ++i) {
-        const Photon& photon = photons[first[i]];
-        const uint slot = next[cell_of(places[i], grid)]++;
+        const Record& photon = photons[first[i]];
+        const uint slot = next[cells[i]]++;
         map.places[slot] = places[i];
-        map.fluxes[slot] = pack_rgb9e5(photon.flux * map.flux_scale);
-        if (map.has_directions()) map.directions[slot] = pack_direction(photon.from);
+        map.fluxes[slot] = photon.flux;
+        if (map.has_directions()) map.directions[slot] = photon.direction;
     }
 }
 
@@ -134,33 +159,40 @@ namespace {
 /// The patches for one largest radius, and a radius for each: small patches get a smaller one until references per
 /// photon stay below the bound.
 struct Partition {
+    static constexpr float largest_floor = 0.5f;  // of the radius
+
     Partition(const Scene& scene, const Photons& photons, const BakeSettings& settings)
-        : patches(group_triangles(scene, patch_size_in_radii * settings.radius)), shapes(shapes_of(scene, patches)) {
-        float floor = 0.5f * settings.radius;
+        : patches(group_triangles(scene, patch_size_in_radii * settings.radius)),
+          shapes(shapes_of(scene, patches)),
+          neighbours(shapes, patch_radii(shapes, settings.radius, largest_floor * settings.radius),
+                     settings.neighbour_angle_deg, settings.radius) {
+        float floor = largest_floor * settings.radius;
         for (int tries = 0; tries < 16; ++tries, floor *= 0.75f) {
             radii = patch_radii(shapes, settings.radius, floor);
-            if (sample_references({scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg},
-                                  20000) < references_per_photon)
+            if (sample_references(
+                    {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours}, 20000) <
+                references_per_photon)
                 break;
         }
     }
     Patches patches;
     std::vector<PatchShape> shapes;
+    Neighbours neighbours;
     std::vector<float> radii;
 };
 
-/// Lays the lattices and finds their coverage. All lengths follow the largest radius R: nodes every 0.4 R, a sample
+/// Lays the lattices and finds their coverage. All lengths follow the largest radius R: nodes every 0.5 R, a sample
 /// every 0.03 R2 (26 under a kernel of R/2), then what the nodes see of the lamps and their irradiance.
 void add_coverage(const Scene& scene, const RayCaster& caster, const Partition& partition,
                   const std::vector<uint>& kept, PhotonMap& map) {
     const float radius = map.settings.radius;
     std::vector<PatchShape> shapes;
     for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
-    const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.4f * radius, map);
+    const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.5f * radius, map);
     const std::vector<Photon> samples =
         sample_surfaces(scene, caster, partition.patches, 0.03f * radius * radius, clearance_of(radius));
-    const References references = find_references(
-        {scene, samples, partition.patches, partition.shapes, partition.radii, map.settings.neighbour_angle_deg});
+    const References references = find_references({scene, samples, partition.patches, partition.shapes, partition.radii,
+                                                   map.settings.neighbour_angle_deg, partition.neighbours});
     if (!map.settings.direct_in_photons) map.visible_lamps = find_visibility(scene, caster, map, nodes);
     map.coverage = find_coverage(scene, map, nodes, samples, references, kept);
     map.irradiance = find_irradiance(scene, caster, map, nodes, map.irradiance_scale);
@@ -178,16 +210,19 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     for (const LightBalance& light : photons.lights) map.emitted.push_back(light.emitted);
 
     const Partition partition(scene, photons, settings);
-    const References references = find_references(
-        {scene, photons.records, partition.patches, partition.shapes, partition.radii, settings.neighbour_angle_deg});
+    const References references =
+        find_references({scene, photons.records, partition.patches, partition.shapes, partition.radii,
+                         settings.neighbour_angle_deg, partition.neighbours});
     const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map);
     const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
     const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
 
+    const bool directions = needs_directions(scene);
+    const std::vector<Record> records = pack_photons(photons.records, map.flux_scale, directions);
     map.grids.resize(kept.size());
     parallel_for(kept.size(), [&](size_t m) {
         map.grids[m] = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
-        fit_grid(map.grids[m], photons.records, first(m), last(m));
+        fit_grid(map.grids[m], records, first(m), last(m));
     });
     uint cells = 0;
     for (SurfaceGrid& grid : map.grids) {
@@ -197,9 +232,9 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     map.cell_starts.assign(cells + 1, uint(references.photons.size()));
     map.places.resize(references.photons.size());
     map.fluxes.resize(references.photons.size());
-    if (needs_directions(scene)) map.directions.resize(references.photons.size());
+    if (directions) map.directions.resize(references.photons.size());
     parallel_for(kept.size(), [&](size_t m) {
-        fill_grid(map, uint(m), photons.records, first(m), last(m), uint(references.starts[kept[m]]));
+        fill_grid(map, uint(m), records, first(m), last(m), uint(references.starts[kept[m]]));
     });
     add_coverage(scene, caster, partition, kept, map);
     return map;

@@ -20,6 +20,11 @@ class MapSamples {
   public:
     MapSamples(const SurfaceGrid& grid, const std::vector<Photon>& samples, const uint* first, const uint* last)
         : cell_(grid.radius * 0.5f), radius_(grid.radius) {
+        for (uint level = 0; level < coverage_levels; ++level) {
+            const float r = radius_ * float(level + 1) / float(coverage_levels);
+            radii2_[level] = r * r;
+            peaks_[level] = 2 / (lw_pi * radii2_[level]);
+        }
         vec2 high(-1e30f);
         low_ = vec2(1e30f);
         std::vector<vec4> unsorted;
@@ -64,14 +69,12 @@ class MapSamples {
         const vec3 d = vec3(sample) - local;
         const float d2 = dot(d, d);
         if (d2 >= radius_ * radius_ || !on_same_surface(d.z, d2, max_radius)) return;
-        for (uint level = coverage_levels; level-- > 0;) {
-            const float r = radius_ * float(level + 1) / float(coverage_levels), r2 = r * r;
-            if (d2 >= r2) break;
-            sums[level] += sample.w * 2 / (lw_pi * r2) * (1 - d2 / r2);
-        }
+        for (uint level = coverage_levels; level-- > 0 && d2 < radii2_[level];)
+            sums[level] += sample.w * peaks_[level] * (1 - d2 / radii2_[level]);
     }
 
     float cell_, radius_;
+    Levels radii2_{}, peaks_{};  // m2 of each kernel, and its value at the centre
     vec2 low_{0};
     int columns_ = 0, rows_ = 0;
     std::vector<uint> starts_;
@@ -129,20 +132,23 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
         waiting -= counts[t];
     }
     std::vector<std::vector<Photon>> chunks((counts.size() + chunk - 1) / chunk);
-    const SurfaceReader surfaces(scene);
     parallel_for(chunks.size(), [&](size_t k) {
-        for (size_t t = k * chunk; t < std::min(counts.size(), (k + 1) * chunk); ++t)
+        for (size_t t = k * chunk; t < std::min(counts.size(), (k + 1) * chunk); ++t) {
+            const auto scramble = uint32_t(mix64(t));
+            const uvec3 c = scene.triangles[t];
+            const vec3 p0 = scene.positions[c.x], p1 = scene.positions[c.y], p2 = scene.positions[c.z];
+            const vec3 product = cross(p1 - p0, p2 - p0);
             for (uint i = 0; i < counts[t]; ++i) {
-                const auto scramble = uint32_t(mix64(t));
                 const vec2 place = sample_triangle(sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
-                const Surface s = surfaces.surface_at(uint(t), place);
+                const vec3 position = (1 - place.x - place.y) * p0 + place.x * p1 + place.y * p2;
                 for (uint side = 0; side < 2; ++side) {
-                    const vec3 n = side ? -s.geometric_normal : s.geometric_normal;
+                    const vec3 n = product / (side ? -length(product) : length(product));
                     Rng rng(1, 2 * t + side, i);
-                    if (is_buried(caster, s.position, n, clearance, rng)) continue;
-                    chunks[k].push_back({s.position, vec3(shares[t]), n, uint(t), pack_origin(0, path_direct, side)});
+                    if (is_buried(caster, position, n, clearance, rng)) continue;
+                    chunks[k].push_back({position, vec3(shares[t]), n, uint(t), pack_origin(0, path_direct, side)});
                 }
             }
+        }
     });
     std::vector<Photon> samples;
     for (const auto& part : chunks) samples.insert(samples.end(), part.begin(), part.end());

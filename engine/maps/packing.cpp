@@ -11,10 +11,11 @@ uint pack_rgb9e5(vec3 color) {
     const vec3 c(bounded(color.x), bounded(color.y), bounded(color.z));
     const float top = std::max({c.x, c.y, c.z});
     if (!(top > 0)) return 0;
-    int exponent = std::max(-16, int(std::floor(std::log2(top)))) + 16;
-    if (std::floor(top / std::ldexp(1.0f, exponent - 24) + 0.5f) >= 512) ++exponent;
-    const float step = std::ldexp(1.0f, exponent - 24);
-    const auto mantissa = [&](float v) { return std::min(uint(std::floor(v / step + 0.5f)), 511u); };
+    const auto steps_per_unit = [](int biased) { return uintBitsToFloat(uint(127 + 24 - biased) << 23); };
+    int exponent = std::max(-16, int(floatBitsToUint(top) >> 23) - 127) + 16;
+    if (top * steps_per_unit(exponent) + 0.5f >= 512) ++exponent;
+    const float scale = steps_per_unit(exponent);
+    const auto mantissa = [=](float v) { return std::min(uint(v * scale + 0.5f), 511u); };
     return mantissa(c.x) | mantissa(c.y) << 9 | mantissa(c.z) << 18 | uint(exponent) << 27;
 }
 

@@ -166,8 +166,10 @@ std::vector<PatchShape> shapes_of(const Scene& scene, const Patches& patches) {
     });
     for (uint patch = 0; patch < patches.count; ++patch) set_axes(shapes[patch], sums[patch]);
     for_each_side(scene, patches, shapes,
-                  [](uint patch, uint, const std::array<vec3, 3>& p, vec3, std::vector<PatchShape>& all) {
+                  [](uint patch, uint, const std::array<vec3, 3>& p, vec3 product, std::vector<PatchShape>& all) {
                       PatchShape& shape = all[patch];
+                      const float size = length(product);
+                      if (size > 0) shape.cos_spread = std::min(shape.cos_spread, dot(product / size, shape.normal));
                       for (const vec3& corner : p) {
                           const vec3 local = shape.to_local(corner);
                           shape.low = min(shape.low, local), shape.high = max(shape.high, local);

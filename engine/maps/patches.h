@@ -21,6 +21,7 @@ struct PatchShape {
     vec3 box_low{0}, box_high{0};                            // bounds in the scene's axes
     uint triangle = 0;                                       // one of its triangles
     uint triangles = 0;                                      // how many it has
+    float cos_spread = 1;                                    // least cosine of the normal and those of its triangles
 
     vec3 to_local(vec3 p) const { return {dot(p - anchor, u_axis), dot(p - anchor, v_axis), dot(p - anchor, normal)}; }
 };

@@ -37,6 +37,12 @@ struct PhotonMap {
     std::vector<uint> irradiance;  // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
     float irradiance_scale = 1;
 
+    /// All arrays together; the same in the file and on the device.
+    uint64_t bytes() const {
+        const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
+        return size(triangle_maps, grids, cell_starts, places, fluxes, directions, coverage, visible_lamps, irradiance);
+    }
+
     bool has_directions() const { return !directions.empty(); }
     bool has_coverage() const { return !coverage.empty(); }
     bool has_visible_lamps() const { return !visible_lamps.empty(); }

@@ -7,26 +7,22 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "trace/box_search.h"
 #include "trace/ray_caster.h"
 
 namespace lw {
 namespace {
 
-constexpr size_t chunk_size = 8192;
+constexpr size_t most_tasks = 64;
+constexpr uint first_of_photon = 1u << 31;  // marks the map of the photon's own side
 
-struct Reference {
-    uint map, photon;
+/// The maps of the photons [begin, end) one after another, and how many references each map has among them.
+struct Task {
+    size_t begin, end;
+    std::vector<uint> maps, counts;
 };
 
 float largest_of(const std::vector<float>& radii) {
     return radii.empty() ? 0.0f : *std::max_element(radii.begin(), radii.end());
-}
-
-std::vector<Box> boxes_of(const std::vector<PatchShape>& shapes) {
-    std::vector<Box> boxes;
-    for (const PatchShape& shape : shapes) boxes.push_back({shape.box_low, shape.box_high});
-    return boxes;
 }
 
 /// Finds the maps of one photon after another.
@@ -35,17 +31,17 @@ class MapFinder {
     explicit MapFinder(const ReferenceInput& input)
         : in_(input),
           largest_(largest_of(input.radii)),
-          cos_angle_(std::cos(glm::radians(input.neighbour_angle_deg))),
-          search_(boxes_of(input.shapes)) {}
+          cos_angle_(std::cos(glm::radians(input.neighbour_angle_deg))) {}
 
-    /// Appends (map, index) for every map that refers to the photon, its own first.
-    void find(const Photon& photon, uint index, std::vector<Reference>& found) const {
+    /// Appends every map that refers to the photon, its own first and marked.
+    void find(const Photon& photon, std::vector<uint>& found) const {
         const uint own = in_.patches.of_side[2 * photon.triangle + photon.side()];
-        found.push_back({own, index});
+        found.push_back(own | first_of_photon);
+        const std::span<const uint> near = in_.neighbours.near(own, photon.position);
+        if (near.empty()) return;
         const vec3 normal = normal_of(photon);
-        search_.near(photon.position, largest_, [&](uint patch) {
-            if (patch != own && belongs(photon.position, normal, patch)) found.push_back({patch, index});
-        });
+        for (uint patch : near)
+            if (belongs(photon.position, normal, patch)) found.push_back(patch);
     }
 
   private:
@@ -59,16 +55,19 @@ class MapFinder {
 
     bool belongs(vec3 position, vec3 normal, uint patch) const {
         const PatchShape& shape = in_.shapes[patch];
-        const float cosine = dot(shape.normal, normal), radius = in_.radii[patch];
-        if (cosine < cos_angle_) return false;
+        const float radius2 = in_.radii[patch] * in_.radii[patch];
         const vec3 local = shape.to_local(position);
         const vec3 outside = max(max(shape.low - local, local - shape.high), vec3(0));
         float distance2 = dot(outside, outside);
-        if (distance2 > radius * radius) return false;
+        if (distance2 > radius2) return false;
+        const vec3 beside = max(max(shape.box_low - position, position - shape.box_high), vec3(0));
+        if (dot(beside, beside) > largest_ * largest_) return false;
+        const float cosine = dot(shape.normal, normal);
+        if (cosine < cos_angle_) return false;
         if (shape.triangles == 1) distance2 = triangle_distance2(position, shape.triangle);
         const float height = outside.z - 0.01f * largest_;
         const float sine2 = std::max(0.0f, 1 - cosine * cosine) * 1.2f + 1e-4f;
-        return distance2 <= radius * radius && (height <= 0 || height * height <= sine2 * distance2);
+        return distance2 <= radius2 && (height <= 0 || height * height <= sine2 * distance2);
     }
 
     float triangle_distance2(vec3 position, uint triangle) const {
@@ -80,8 +79,26 @@ class MapFinder {
 
     const ReferenceInput& in_;
     float largest_, cos_angle_;
-    BoxSearch search_;
 };
+
+/// The references of all photons, in at most `most_tasks` pieces.
+std::vector<Task> find_maps(const ReferenceInput& input) {
+    const MapFinder finder(input);
+    const size_t photons = input.photons.size(), size = std::max<size_t>(8192, photons / most_tasks + 1);
+    std::vector<Task> tasks;
+    for (size_t begin = 0; begin < photons; begin += size)
+        tasks.push_back({begin, std::min(begin + size, photons), {}, {}});
+    Progress progress("references", photons);
+    parallel_for(tasks.size(), [&](size_t t) {
+        Task& task = tasks[t];
+        task.maps.reserve((task.end - task.begin) * 2);
+        for (size_t i = task.begin; i < task.end; ++i) finder.find(input.photons[i], task.maps);
+        task.counts.assign(input.patches.count, 0);
+        for (uint map : task.maps) ++task.counts[map & ~first_of_photon];
+        progress.step(task.end - task.begin);
+    });
+    return tasks;
+}
 
 }  // namespace
 
@@ -100,39 +117,36 @@ double sample_references(const ReferenceInput& input, size_t samples) {
     const MapFinder finder(input);
     const std::vector<Photon>& photons = input.photons;
     const size_t step = std::max<size_t>(1, photons.size() / samples), count = photons.size() / step;
-    std::vector<std::vector<Reference>> chunks((count + 255) / 256);
-    parallel_for(chunks.size(), [&](size_t c) {
-        for (size_t i = c * 256; i < std::min(c * 256 + 256, count); ++i) finder.find(photons[i * step], 0, chunks[c]);
-    });
-    size_t found = 0;
-    for (const auto& chunk : chunks) found += chunk.size();
-    return count ? double(found) / double(count) : 0;
+    std::vector<uint> found;
+    for (size_t i = 0; i < count; ++i) finder.find(photons[i * step], found);
+    return count ? double(found.size()) / double(count) : 0;
 }
 
 References find_references(const ReferenceInput& input) {
-    const MapFinder finder(input);
-    const std::vector<Photon>& photons = input.photons;
-    std::vector<std::vector<Reference>> chunks((photons.size() + chunk_size - 1) / chunk_size);
-    Progress progress("references", photons.size());
-    parallel_for(chunks.size(), [&](size_t c) {
-        const size_t begin = c * chunk_size, end = std::min(begin + chunk_size, photons.size());
-        chunks[c].reserve((end - begin) * 5 / 4);
-        for (size_t i = begin; i < end; ++i) finder.find(photons[i], uint(i), chunks[c]);
-        progress.step(end - begin);
-    });
+    std::vector<Task> tasks = find_maps(input);
     References result;
-    result.starts.assign(input.patches.count + 1, 0);
-    for (const auto& chunk : chunks)
-        for (const Reference& r : chunk) ++result.starts[r.map + 1];
-    for (size_t m = 0; m < input.patches.count; ++m) result.starts[m + 1] += result.starts[m];
+    result.starts.assign(1, 0);
+    for (size_t m = 0; m < input.patches.count; ++m) {
+        uint64_t next = result.starts[m];
+        for (Task& task : tasks) {
+            const uint count = task.counts[m];
+            task.counts[m] = uint(next);  // where the task writes its next reference
+            next += count;
+        }
+        result.starts.push_back(next);
+    }
     if (result.starts.back() > 0xfffffff0ull)
         throw Error("photon map: more than 2^32 references; use fewer photons or a smaller radius");
     result.photons.resize(result.starts.back());
-    std::vector<uint64_t> next(result.starts.begin(), result.starts.end() - 1);
-    for (auto& chunk : chunks) {
-        for (const Reference& r : chunk) result.photons[next[r.map]++] = r.photon;
-        std::vector<Reference>().swap(chunk);
-    }
+    parallel_for(tasks.size(), [&](size_t t) {
+        Task& task = tasks[t];
+        size_t photon = task.begin - 1;
+        for (uint map : task.maps) {
+            photon += map / first_of_photon;
+            result.photons[task.counts[map & ~first_of_photon]++] = uint(photon);
+        }
+        task = {};
+    });
     return result;
 }
 

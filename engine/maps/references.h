@@ -1,9 +1,10 @@
 // Which photons each map refers to (paper, section 2.1): the photon's own, and those within the map's radius whose
-// normal differs by less than the angle. One point query per photon over the boxes of the maps replaces the paper's
-// neighbour lists, which grow with the square of the triangles.
+// normal differs by less than the angle. Lists of neighbours per cell of a patch replace the paper's lists per
+// triangle, which grow with the square of the triangles.
 #pragma once
 #include <vector>
 
+#include "maps/neighbours.h"
 #include "maps/patches.h"
 #include "maps/photon_map.h"
 #include "photons/photon.h"
@@ -22,8 +23,9 @@ struct ReferenceInput {
     const std::vector<Photon>& photons;
     const Patches& patches;
     const std::vector<PatchShape>& shapes;
-    const std::vector<float>& radii;  // search radius of each patch, m
+    const std::vector<float>& radii;  // search radius of each patch, m; at most those of the neighbours
     float neighbour_angle_deg;
+    const Neighbours& neighbours;
 };
 
 /// The radius of each patch: `largest`, but so small that the photons around a small patch do not outnumber those on
@@ -31,8 +33,9 @@ struct ReferenceInput {
 std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float largest, float floor);
 
 /// A photon belongs to a patch when it lies within the patch's radius of its triangle (of the box around it, when the
-/// patch has several), when its normal is within the angle of the patch's, and when its height over the patch is no
-/// more than what the angle between the two explains: a parallel sheet above or below does not belong.
+/// patch has several, and within the largest radius of its bounds), when its normal is within the angle of the patch's,
+/// and when its height over the patch is no more than what the angle between the two explains: a parallel sheet above
+/// or below does not belong.
 References find_references(const ReferenceInput& input);
 
 /// References per photon from about `samples` photons spread over the whole set.

@@ -1,4 +1,4 @@
-// Which of many axis-aligned boxes lie near a point; an Embree point query over user geometry.
+// Which of many axis-aligned boxes overlap a given one; a hierarchy of median splits, traversed without a stack.
 #pragma once
 #include <vector>
 
@@ -10,28 +10,40 @@ struct Box {
     vec3 low, high;
 };
 
-/// Owns its Embree scene; thread-safe for queries.
+/// Thread-safe for queries.
 class BoxSearch {
   public:
-    /// Throws Error when Embree cannot build.
     explicit BoxSearch(std::vector<Box> boxes);
-    ~BoxSearch();
-    BoxSearch(const BoxSearch&) = delete;
-    BoxSearch& operator=(const BoxSearch&) = delete;
 
-    /// Calls visit(index) for every box within `radius` of `point` (and possibly a few more).
+    /// Calls visit(index) for every box that overlaps `wanted`.
     template <class Visit>
-    void near(vec3 point, float radius, Visit&& visit) const {
-        query(
-            point, radius, [](void* context, uint box) { (*static_cast<Visit*>(context))(box); }, &visit);
+    void overlapping(const Box& wanted, const Visit& visit) const {
+        for (uint n = 0; n < nodes_.size();) {
+            const Node& node = nodes_[n];
+            const bool missed = !overlap(node.bounds, wanted);
+            n = missed ? node.next : n + 1;
+            for (uint i = node.first; i < node.last && !missed; ++i)
+                if (overlap(boxes_[order_[i]], wanted)) visit(order_[i]);
+        }
     }
 
   private:
-    void query(vec3 point, float radius, void (*visit)(void*, uint), void* context) const;
+    /// Nodes lie depth first: the children of one follow it, up to `next`.
+    struct Node {
+        Box bounds;
+        uint next = 0;
+        uint first = 0, last = 0;  // of order_, in a leaf
+    };
+
+    static bool overlap(const Box& a, const Box& b) {
+        return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+               a.low.z <= b.high.z && b.low.z <= a.high.z;
+    }
+    void build(uint first, uint last);
 
     std::vector<Box> boxes_;
-    void* device_ = nullptr;
-    void* scene_ = nullptr;
+    std::vector<uint> order_;
+    std::vector<Node> nodes_;
 };
 
 }  // namespace lw

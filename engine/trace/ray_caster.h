@@ -1,4 +1,4 @@
-// Nearest hit and visibility against the triangles of a Scene; with box_search the only user of Embree.
+// Nearest hit and visibility against the triangles of a Scene; with build_bvh the only user of Embree.
 #pragma once
 #include <optional>
 

@@ -29,7 +29,21 @@ constexpr DirectionNumbers make_direction_numbers() {
     return v;
 }
 
-constexpr DirectionNumbers direction_numbers = make_direction_numbers();
+/// The sum (XOR) of the direction numbers of each value of each group of 4 bits of an index, per dimension.
+using NibbleSums = std::array<std::array<std::array<uint32_t, 16>, 8>, 5>;
+
+constexpr NibbleSums sum_direction_numbers() {
+    const DirectionNumbers v = make_direction_numbers();
+    NibbleSums sums{};
+    for (size_t d = 0; d < 5; ++d)
+        for (size_t nibble = 0; nibble < 8; ++nibble)
+            for (size_t value = 0; value < 16; ++value)
+                for (size_t bit = 0; bit < 4; ++bit)
+                    if (value >> bit & 1u) sums[d][nibble][value] ^= v[d][4 * nibble + bit];
+    return sums;
+}
+
+constexpr NibbleSums nibble_sums = sum_direction_numbers();
 
 uint32_t reverse_bits(uint32_t x) {
     x = ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
@@ -53,10 +67,11 @@ uint32_t owen_scramble(uint32_t x, uint32_t seed) { return reverse_bits(laine_ka
 }  // namespace
 
 float sobol_owen(uint32_t index, int dimension, uint32_t seed) {
-    const auto& v = direction_numbers[size_t(dimension)];
     uint32_t x = 0;
-    for (uint32_t bit = 0; index; index >>= 1, ++bit)
-        if (index & 1u) x ^= v[bit];
+    for (const auto& sums : nibble_sums[size_t(dimension)]) {
+        x ^= sums[index & 15u];
+        index >>= 4;
+    }
     const auto scramble = uint32_t(mix64((uint64_t(seed) << 8) | uint64_t(dimension)));
     return to_unit_float(owen_scramble(x, scramble));
 }

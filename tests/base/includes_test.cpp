@@ -28,7 +28,7 @@ const std::map<std::string, Names> allowed_folders = {
 
 /// Start of a library's include path -> the sources of engine/ (files or folders) that may name it.
 const std::map<std::string, std::vector<std::string>> fences = {
-    {"embree", {"trace/ray_caster.", "trace/box_search.", "trace/build_bvh."}},
+    {"embree", {"trace/ray_caster.", "trace/build_bvh."}},
     {"tiny_gltf", {"scene/gltf"}},
     {"OpenEXR/", {"image/exr."}},
     {"stb/", {"image/png."}},

@@ -13,7 +13,8 @@ namespace lw {
 
 const std::vector<GatherMode>& gather_modes() {
     static const std::vector<GatherMode> modes{{"exact kNN", 0, true, PhotonEstimator::heap_size},
-                                               {"smooth", 1, true, 1'000'000}};
+                                               {"smooth", 1, true, 1'000'000},
+                                               {"cached", 2, false, 50}};  // its neighbours are the bake's
     return modes;
 }
 
@@ -42,11 +43,7 @@ BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesy
     std::filesystem::remove(file);
 }
 
-uint64_t bytes_of(const PhotonMap& map) {
-    const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
-    return bytes(map.triangle_maps) + bytes(map.grids) + bytes(map.cell_starts) + bytes(map.places) +
-           bytes(map.fluxes) + bytes(map.directions) + bytes(map.coverage) + bytes(map.visible_lamps);
-}
+uint64_t bytes_of(const PhotonMap& map) { return map.bytes(); }
 
 double references_per_photon(const PhotonMap& map) {
     return double(map.places.size()) / double(std::max<uint64_t>(1, map.stored_photons));
