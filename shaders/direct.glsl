@@ -189,37 +189,49 @@ float visible_part_around(LampsAround around, uint shift) LW_MEMBER {
     return mix(low, high, around.f.y);
 }
 
-/// Adds the direct light of all lamps at a point of `map` to what the photons say. `seed` shifts the points on mesh
-/// lamps (Cranley & Patterson 1976) of the R2 sequence (Roberts 2018). The cached mode has the light of meshes in its nodes.
+/// Adds the light of lamp `i`, of which `seen` says what is known (some_visible, some_hidden) and `part` how much of it
+/// the nodes around see.
+void add_lamp(uint i, uint seen, float part, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+              LW_INOUT(Gathered) sum) LW_MEMBER {
+    Light lamp = light_at(i);
+    bool mesh = lamp.type == light_mesh;
+    vec3 weight = light_weight(i);
+    if (mesh && gather_mode == gather_mode_cached) return;  // in the nodes
+    if (!has_shadow_rays && seen != 0u) weight *= part;
+    uint random = hash_uint(seed + hash_uint(i));
+    vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
+    uint samples = mesh ? max(shadow_rays, 1u) : 1u;
+    for (uint j = 0u; j < samples; ++j) {
+        LightSample light = sample_punctual(lamp, s.position);
+        if (has_mesh_lamps && mesh)
+            light = sample_mesh(lamp, s.position, fract(start + float(j) * vec2(0.754877666f, 0.569840291f)));
+        float cos_geometric = dot(n_geometric, light.to_light);
+        vec3 incoming = weight * light.irradiance / float(samples);
+        if (cos_geometric <= 0.0f || max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) continue;
+        if (has_shadow_rays && seen != some_visible)
+            incoming *= shadow_ray(s.position + n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
+        sum.irradiance += incoming * cos_geometric;
+        sum.radiance += incoming * max(dot(n_shading, light.to_light), 0.0f) *
+                        eval_brdf(s, n_shading, to_view, light.to_light, false);
+    }
+}
+
+/// Adds the direct light of all lamps at a point of `map` to what the photons say; lamps that no node around sees are
+/// skipped. `seed` shifts the points on mesh lamps (Cranley & Patterson 1976) of the R2 sequence (Roberts 2018).
 void add_direct(uint map, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
-    LampsAround around = lamps_around(map, s.position, 0u);
-    vec3 origin = s.position + n_geometric * ray_epsilon;
-    for (uint i = 0u; i < light_count; ++i) {
-        uint shift = visibility_shift(i);
-        if (shift == 0u && i > 0u) around = lamps_around(map, s.position, visibility_word(i));
+    const uint one_each = 0x11111111u;
+    for (uint first = 0u; first < light_count; first += lamps_per_word) {
+        LampsAround around = lamps_around(map, s.position, visibility_word(first));
         uint seen = around.nodes.x | around.nodes.y | around.nodes.z | around.nodes.w;
-        seen = (seen >> shift) & (some_visible | some_hidden);
-        Light lamp = light_at(i);
-        vec3 weight = light_weight(i);
-        bool mesh = lamp.type == light_mesh;
-        if (seen == some_hidden || max(weight.x, max(weight.y, weight.z)) <= 0.0f) continue;
-        if (mesh && gather_mode == gather_mode_cached) continue;
-        if (!has_shadow_rays && seen != 0u) weight *= visible_part_around(around, shift);
-        uint random = hash_uint(seed + hash_uint(i));
-        vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
-        uint samples = mesh ? max(shadow_rays, 1u) : 1u;
-        for (uint j = 0u; j < samples; ++j) {
-            LightSample light = sample_punctual(lamp, s.position);
-            if (has_mesh_lamps && mesh) light = sample_mesh(lamp, s.position, fract(start + float(j) * vec2(0.754877666f, 0.569840291f)));
-            float cos_geometric = dot(n_geometric, light.to_light);
-            vec3 incoming = weight * light.irradiance / float(samples);
-            if (cos_geometric <= 0.0f || max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) continue;
-            if (has_shadow_rays && seen != some_visible)
-                incoming *= shadow_ray(origin, light.to_light, light.far - 2.0f * ray_epsilon);
-            sum.irradiance += incoming * cos_geometric;
-            sum.radiance += incoming * max(dot(n_shading, light.to_light), 0.0f) *
-                            eval_brdf(s, n_shading, to_view, light.to_light, false);
+        uint todo = one_each & ~((seen >> 1) & ~seen);
+        uint left = light_count - first;
+        if (left < lamps_per_word) todo &= (1u << (4u * left)) - 1u;
+        while (todo != 0u) {
+            uint shift = uint(findLSB(todo));
+            todo &= todo - 1u;
+            add_lamp(first + shift / 4u, (seen >> shift) & (some_visible | some_hidden), visible_part_around(around, shift),
+                     s, n_geometric, n_shading, to_view, seed, sum);
         }
     }
 }

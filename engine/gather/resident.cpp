@@ -65,6 +65,21 @@ void check_device(const Device& device, const Scene& scene, const PhotonMap& map
                     mebibytes(device.memory_size()) + "; bake fewer photons");
 }
 
+std::vector<Resident::ObjectRange> find_object_ranges(const Scene& scene) {
+    std::vector<Resident::ObjectRange> ranges;
+    for (uint t = 0; t < scene.triangles.size(); ++t) {
+        if (t == 0 || scene.triangle_objects[t] != scene.triangle_objects[t - 1])
+            ranges.push_back({vec3(1e30f), vec3(-1e30f), t, t});
+        Resident::ObjectRange& range = ranges.back();
+        for (int c = 0; c < 3; ++c) {
+            const vec3 p = scene.positions[scene.triangles[t][c]];
+            range.low = min(range.low, p), range.high = max(range.high, p);
+        }
+        range.end_triangle = t + 1;
+    }
+    return ranges;
+}
+
 }  // namespace
 
 Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh,
@@ -73,6 +88,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
       map_(&map),
       buffer_range_(settings.buffer_range ? settings.buffer_range : device.limits().maxStorageBufferRange),
       triangle_count_(uint(scene.triangles.size())),
+      object_ranges_(find_object_ranges(scene)),
       max_radius_(map.settings.radius),
       inverse_flux_scale_(1.0f / map.flux_scale),
       ray_epsilon_(scene.ray_epsilon()),

@@ -13,6 +13,33 @@ using Layout = vk::ImageLayout;
 constexpr auto both_stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
+/// True when the whole box is outside one plane of the view: behind the near plane, or beyond a side.
+bool is_outside(const Resident::ObjectRange& box, const Frame& frame) {
+    const vec3 centre = 0.5f * (box.low + box.high) - frame.camera_position, half = 0.5f * (box.high - box.low);
+    const auto beyond = [&](vec3 normal, float offset) {
+        return dot(normal, centre) + dot(abs(normal), half) < offset;
+    };
+    const vec3 ahead = -frame.camera_back;
+    const vec2 slope = (vec2(1) + abs(frame.jitter)) / frame.projection;
+    return beyond(ahead, frame.near) || beyond(ahead * slope.x - frame.camera_right, 0) ||
+           beyond(ahead * slope.x + frame.camera_right, 0) || beyond(ahead * slope.y - frame.camera_up, 0) ||
+           beyond(ahead * slope.y + frame.camera_up, 0);
+}
+
+/// Ranges [first, end) of triangles of objects that may be in view, neighbours joined.
+std::vector<std::pair<uint, uint>> visible_triangles(const std::vector<Resident::ObjectRange>& objects,
+                                                     const Frame& frame) {
+    std::vector<std::pair<uint, uint>> ranges;
+    for (const Resident::ObjectRange& object : objects) {
+        if (is_outside(object, frame)) continue;
+        if (!ranges.empty() && ranges.back().second == object.first_triangle)
+            ranges.back().second = object.end_triangle;
+        else
+            ranges.emplace_back(object.first_triangle, object.end_triangle);
+    }
+    return ranges;
+}
+
 }  // namespace
 
 VisibilityPass::VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size)
@@ -51,7 +78,8 @@ void VisibilityPass::draw(vk::CommandBuffer commands, const Frame& frame) const 
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, resident_->descriptors().handle(), {});
     commands.pushConstants<Frame>(*layout_, both_stages, 0, frame);
-    commands.draw(3 * resident_->triangle_count(), 1, 0, 0);
+    for (const auto& [first, end] : visible_triangles(resident_->object_ranges(), frame))
+        commands.draw(3 * (end - first), 1, 3 * first, 0);
     commands.endRendering();
 }
 
