@@ -69,19 +69,16 @@ uint node_coverage(uint node) { return nodes[node].coverage; }
 
 uint node_irradiance(uint node) { return nodes[node].irradiance; }
 
+float lamp_factor(uint light) { return lamps[light].factor; }
+
 Light light_at(uint i) { return lamps[i].light; }
 
 #include "surface.glsl"
 #include "bsdf.glsl"
 #include "gather.glsl"
+#include "rays.glsl"
 #include "direct.glsl"
-
-/// What the surface shows without photons: its glow, or its colour when unlit.
-vec3 own_radiance(Surface s, bool front) {
-    if ((s.flags & material_unlit) != 0u) return s.base_color;
-    if (!front && (s.flags & material_double_sided) == 0u) return vec3(0.0f);
-    return s.emissive * (s.light >= 0 ? lamps[s.light].factor : 1.0f);
-}
+#include "shade.glsl"
 
 void store(uint pixel, vec4 light, vec4 geometry) {
     vec4 before = frame.sample_index == 0u ? vec4(0.0f) : radiance_illuminance[pixel];
@@ -98,16 +95,9 @@ void main() {
         store(pixel, vec4(0.0f), vec4(0.0f));
         return;
     }
-    Surface s = surface_at(visible.x, uintBitsToFloat(visible.yz));
-    vec3 to_camera = frame.camera_position - s.position;
-    bool front = dot(s.geometric_normal, to_camera) >= 0.0f;
-    vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal;
-    vec3 n_shading = front ? s.normal : -s.normal;
-    uint map = triangle_maps[2u * visible.x + (front ? 0u : 1u)];
-    Gathered light = gather_photons(map, s, n_geometric, n_shading, normalize(to_camera));
     uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
-    if (has_direct) add_direct(map, s, n_geometric, n_shading, normalize(to_camera), seed, light);
-    float illuminance = dot(light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
-    store(pixel, vec4(light.radiance + own_radiance(s, front), illuminance),
-          vec4(n_shading, dot(to_camera, frame.camera_back)));
+    Shaded seen = shade(visible.x, uintBitsToFloat(visible.yz), frame.camera_position, seed);
+    float illuminance = dot(seen.light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
+    store(pixel, vec4(seen.light.radiance, illuminance),
+          vec4(seen.normal, dot(frame.camera_position - seen.position, frame.camera_back)));
 }

@@ -72,6 +72,9 @@ struct PhotonPlace {
     uint h_light_and_path;  // low 16: height step; high 16: light | path << 14
 };
 
+/// Mirrors that a view ray follows one after the other.
+LW_CONST uint most_mirrors = 4u;
+
 /// How photons become light.
 LW_CONST uint gather_mode_exact = 0u;   // the k nearest photons, with a heap: the paper's way
 LW_CONST uint gather_mode_smooth = 1u;  // bandwidth from cell counts, one pass with a smooth kernel

@@ -1,7 +1,8 @@
 // What lies at (triangle, barycentrics): position, normals and material parameters.
 // One text for C++ and GLSL. The including scope provides the arrays positions, normals, uv0, uv1, colors, tangents,
 // triangles, triangle_objects, objects, materials, textures, texels and the constants has_uv0, has_uv1, has_colors,
-// has_tangents, has_textures (any), has_metallic_roughness_textures, has_emissive_textures, has_transmission_textures.
+// has_tangents, has_textures (any), has_metallic_roughness_textures, has_emissive_textures, has_transmission_textures,
+// has_alpha, has_transmission.
 
 float srgb_to_linear(float c) LW_MEMBER { return c <= 0.04045f ? c / 12.92f : pow((c + 0.055f) / 1.055f, 2.4f); }
 
@@ -117,4 +118,15 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
     }
     if (dot(s.normal, s.geometric_normal) < 0.0f) s.normal = -s.normal;
     return s;
+}
+
+/// True where a view ray passes: cut-out texels, and glass, which is looked straight through.
+bool is_see_through(uint triangle, vec2 barycentrics) LW_MEMBER {
+    Material m = materials[objects[triangle_objects[triangle]].material];
+    bool cut_out = has_alpha && (m.flags & (material_alpha_mask | material_alpha_blend)) != 0u;
+    if (!cut_out && !has_transmission) return false;
+    Surface s = surface_at(triangle, barycentrics);
+    if (has_transmission && s.transmission > 0.5f && s.metallic < 0.5f) return true;
+    if (!cut_out) return false;
+    return s.alpha < ((m.flags & material_alpha_mask) != 0u ? m.alpha_cutoff : 0.5f);
 }

@@ -124,7 +124,7 @@ void take_screenshot(const Options& o) {
         lw::load_photon_map(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map), scene);
     lw::check_can_create(o.output);
     const lw::Device device({o.device, o.validation});
-    const lw::Bvh bvh = map.settings.direct_in_photons ? lw::Bvh{} : lw::build_bvh(scene);
+    const lw::Bvh bvh = lw::build_bvh(scene);
     lw::Resident resident(device, scene, map, bvh);
     resident.set_light_factors(factors);
     const vk::Extent2D size = picture_size(o, camera);

@@ -47,6 +47,13 @@ bool any_texture(const Scene& scene, TextureSlot Material::*slot) {
                        [=](const Material& m) { return (m.*slot).texture >= 0; });
 }
 
+bool has_mirrors(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+        const bool textured = m.metallic_roughness_texture.texture >= 0;
+        return m.metallic > 0.999f && (textured || m.roughness * m.roughness < smallest_alpha);
+    });
+}
+
 uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
     return bytes(s.positions) + bytes(s.normals) + bytes(s.uv0) + bytes(s.uv1) + bytes(s.colors) + bytes(s.tangents) +
@@ -99,7 +106,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     if (!map.triangle_maps.empty() && map.triangle_maps.size() != 2 * scene.triangles.size())
         throw Error(scene.path.string() + ": the photon map belongs to another scene");
     check_device(device, scene, map);
-    choose_constants(scene, map);
+    choose_constants(scene, map, bvh);
     constants_[constant_has_direct] = !bvh.nodes.empty() && !map.settings.direct_in_photons;
     constants_[constant_has_visible_lamps] = map.has_visible_lamps();
     constants_[constant_has_coverage] = map.has_coverage();
@@ -112,7 +119,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     set_light_factors(std::vector<float>(lamp_states_.size(), 1.0f));
 }
 
-void Resident::choose_constants(const Scene& scene, const PhotonMap& map) {
+void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh) {
     constants_[constant_has_uv0] = !scene.uv0.empty();
     constants_[constant_has_uv1] = !scene.uv1.empty();
     constants_[constant_has_colors] = !scene.colors.empty();
@@ -122,6 +129,7 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map) {
     constants_[constant_has_alpha] = any_material(scene, material_alpha_mask | material_alpha_blend);
     constants_[constant_has_transmission] = std::any_of(scene.materials.begin(), scene.materials.end(),
                                                         [](const Material& m) { return m.transmission > 0; });
+    constants_[constant_has_mirrors] = !bvh.nodes.empty() && has_mirrors(scene);
     constants_[constant_has_mesh_lamps] = !scene.emitters.empty();
     constants_[constant_has_metallic_roughness_textures] = any_texture(scene, &Material::metallic_roughness_texture);
     constants_[constant_has_emissive_textures] = any_texture(scene, &Material::emissive_texture);

@@ -20,9 +20,9 @@ struct ResidentSettings {
 
 class Resident {
   public:
-    /// Uploads everything; the map must outlive it. all lights at factor 1. A map without triangle_maps means no
-    /// photons. Throws Error saying which array does not fit, and what would. `bvh` is empty when the photons hold the
-    /// direct light.
+    /// Uploads everything; all lights at factor 1. The map must outlive it; one without triangle_maps means no photons.
+    /// Without `bvh` no rays are traced: no shadow rays, and mirrors are black.
+    /// Throws Error saying which array does not fit, and what would.
     Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh = {},
              ResidentSettings settings = {});
 
@@ -47,7 +47,7 @@ class Resident {
     uint64_t bytes() const;  // GPU memory of all buffers
 
   private:
-    void choose_constants(const Scene& scene, const PhotonMap& map);
+    void choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh);
     void upload_scene(const Scene& scene);
     void upload_map(const PhotonMap& map);
     void upload_direct(const Scene& scene, const Bvh& bvh);

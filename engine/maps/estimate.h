@@ -25,6 +25,7 @@ class PhotonEstimator : public SurfaceReader {
                     GatherSettings settings, const Bvh& bvh = no_shadows())
         : SurfaceReader(scene),
           grids(map.grids.data()),
+          triangle_maps(map.triangle_maps.data()),
           cell_starts(map.cell_starts.data()),
           map_(map),
           weights_(light_weights),
@@ -46,6 +47,7 @@ class PhotonEstimator : public SurfaceReader {
           emitters(scene.emitters.data()),
           shadow_rays(settings.shadow_rays),
           has_shadow_rays(settings.shadow_rays > 0),
+          has_mirrors(!bvh.nodes.empty()),
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
         if (gather_mode == gather_mode_cached)
             inverse_irradiance_scale = 1 / sum_irradiance(map, light_weights, summed_irradiance_);
@@ -55,24 +57,25 @@ class PhotonEstimator : public SurfaceReader {
     uint photon_flux(uint i) const { return map_.fluxes[i]; }
     uint photon_direction(uint i) const { return map_.directions[i]; }
     vec3 light_weight(uint light) const { return weights_[light]; }
+    float lamp_factor(uint light) const {
+        const vec3 w = weights_[light], full = lights[light].intensity;
+        const int c = full.x > 0 ? 0 : full.y > 0 ? 1 : 2;
+        return full[c] > 0 ? w[c] / full[c] : 1.0f;
+    }
     Light light_at(uint i) const { return lights[i]; }
     uint node_coverage(uint node) const { return map_.coverage[node]; }
     uint node_irradiance(uint node) const { return summed_irradiance_[node]; }
 
 #include "shaders/direct.glsl"
 #include "shaders/gather.glsl"
+#include "shaders/rays.glsl"
+
+#include "shaders/shade.glsl"
 
     /// The estimate at (triangle, barycentrics) seen from direction `to_view` (unit). `seed` picks the points on mesh
     /// lamps.
     Gathered estimate(uint triangle, vec2 barycentrics, vec3 to_view, uint seed = 0) const {
-        const Surface s = surface_at(triangle, barycentrics);
-        const bool back = dot(s.geometric_normal, to_view) < 0;
-        const float side = back ? -1.0f : 1.0f;
-        const vec3 ng = s.geometric_normal * side, n = s.normal * side;
-        const uint map = map_.triangle_maps.empty() ? no_map : map_.triangle_maps[2 * triangle + (back ? 1 : 0)];
-        Gathered sum = gather_photons(map, s, ng, n, to_view);
-        if (has_direct) add_direct(map, s, ng, n, to_view, seed, sum);
-        return sum;
+        return shade(triangle, barycentrics, surface_at(triangle, barycentrics).position + to_view, seed).light;
     }
 
   protected:
@@ -82,6 +85,7 @@ class PhotonEstimator : public SurfaceReader {
     }
 
     const SurfaceGrid* grids;
+    const uint* triangle_maps;
     const uint* cell_starts;
     const PhotonMap& map_;
     const std::vector<vec3>& weights_;
@@ -101,6 +105,7 @@ class PhotonEstimator : public SurfaceReader {
     uint shadow_rays;
     bool has_shadow_rays;
     static constexpr bool has_mesh_lamps = true;
+    bool has_mirrors;
     bool has_direct;
     std::vector<uint> summed_irradiance_;  // cached mode only
     float inverse_irradiance_scale = 1;

@@ -1,6 +1,6 @@
 // Which map each side of each triangle belongs to. A large triangle has a map of its own, as in the paper; small
-// triangles of one object, of like orientation and in one cell of space share one, so that references per photon do
-// not grow with the tessellation.
+// triangles of one object, of like orientation, in one cell of space and of one sheet share one, so that references per
+// photon do not grow with the tessellation.
 #pragma once
 #include <vector>
 

@@ -1,0 +1,117 @@
+// Rays through the hierarchy of shaders/bvh.h: shadow rays and the nearest surface. One text for C++ and GLSL; the including
+// scope provides what surface.glsl and bsdf.glsl need, the arrays bvh_nodes, bvh_triangles and the constants
+// bvh_node_count, has_alpha, has_transmission. Nothing heavy inside the traversal: some devices run both sides of a branch.
+
+/// True when a triangle is crossed by origin + t direction, 0 < t < far (Moeller & Trumbore 1997, edges included); sets
+/// `hit` to the weights of its second and third corner and t.
+bool crosses_triangle(uint triangle, vec3 origin, vec3 direction, float far, LW_INOUT(vec3) hit) LW_MEMBER {
+    uvec3 corner = triangles[triangle];
+    vec3 a = positions[corner.x];
+    vec3 ab = positions[corner.y] - a;
+    vec3 ac = positions[corner.z] - a;
+    vec3 p = cross(direction, ac);
+    float determinant = dot(ab, p);
+    if (determinant == 0.0f) return false;
+    float inverse = 1.0f / determinant;
+    vec3 to_origin = origin - a;
+    float u = dot(to_origin, p) * inverse;
+    vec3 q = cross(to_origin, ab);
+    float v = dot(direction, q) * inverse;
+    float t = dot(ac, q) * inverse;
+    hit = vec3(u, v, t);
+    return u >= -1e-6f && v >= -1e-6f && u + v <= 1.000001f && t > 0.0f && t < far;
+}
+
+/// Fraction of light that a crossed triangle lets pass straight through.
+vec3 passed_by(uint triangle, vec2 barycentrics, vec3 direction) LW_MEMBER {
+    uint flags = materials[objects[triangle_objects[triangle]].material].flags;
+    Surface s = surface_at(triangle, barycentrics);
+    float cutoff = materials[objects[triangle_objects[triangle]].material].alpha_cutoff;
+    if ((flags & material_alpha_mask) != 0u && s.alpha < cutoff) return vec3(1.0f);
+    vec3 passed = vec3(0.0f);
+    if ((flags & material_thin) != 0u) passed = thin_transmittance(s, abs(dot(s.normal, direction)));
+    if ((flags & material_alpha_blend) != 0u) passed = mix(vec3(1.0f), passed, clamp(s.alpha, 0.0f, 1.0f));
+    return passed;
+}
+
+/// Where a traversal stands: `node` is next once the triangles [first, last) of the list are tested.
+struct Traversal {
+    uint node;
+    uint first;
+    uint last;
+};
+
+/// Goes on to the next crossed triangle, which it returns with its bvh_see_through bit, or no_map at the end.
+uint next_crossed(vec3 origin, vec3 direction, vec3 inverse, float far, LW_INOUT(Traversal) at,
+                  LW_INOUT(vec3) hit) LW_MEMBER {
+    while (at.first < at.last || at.node < bvh_node_count) {
+        if (at.first < at.last) {
+            uint entry = bvh_triangles[at.first++];
+            if (crosses_triangle(entry & ~bvh_see_through, origin, direction, far, hit)) return entry;
+            continue;
+        }
+        BvhNode n = bvh_nodes[at.node];
+        vec3 t0 = (n.low - origin) * inverse;
+        vec3 t1 = (n.high - origin) * inverse;
+        vec3 near3 = min(t0, t1);
+        vec3 far3 = max(t0, t1) * 1.000001f;  // Ize 2013: keeps edges of boxes watertight
+        bool inside = max(max(near3.x, near3.y), max(near3.z, 0.0f)) <= min(min(far3.x, far3.y), min(far3.z, far));
+        at.first = n.leaf >> 4;
+        at.last = inside ? at.first + (n.leaf & 15u) : at.first;
+        at.node = inside && n.leaf == 0u ? at.node + 1u : n.skip;
+    }
+    return no_map;
+}
+
+/// 1 / direction, finite.
+vec3 inverse_of(vec3 direction) LW_MEMBER {
+    float tiny = 1e-20f;
+    return 1.0f / vec3(abs(direction.x) > tiny ? direction.x : tiny, abs(direction.y) > tiny ? direction.y : tiny,
+                       abs(direction.z) > tiny ? direction.z : tiny);
+}
+
+Traversal start_traversal() LW_MEMBER {
+    Traversal at;
+    at.node = 0u;
+    at.first = 0u;
+    at.last = 0u;
+    return at;
+}
+
+/// Fraction of light per RGB that reaches `origin` from distance `far` along unit `direction`.
+vec3 shadow_ray(vec3 origin, vec3 direction, float far) LW_MEMBER {
+    vec3 inverse = inverse_of(direction);
+    Traversal at = start_traversal();
+    vec3 hit = vec3(0.0f);
+    vec3 light = vec3(1.0f);
+    uint entry = next_crossed(origin, direction, inverse, far, at, hit);
+    if (!has_alpha && !has_transmission) return entry == no_map ? light : vec3(0.0f);
+    while (entry != no_map) {
+        if ((entry & bvh_see_through) == 0u) return vec3(0.0f);
+        light *= passed_by(entry & ~bvh_see_through, vec2(hit.x, hit.y), direction);
+        if (max(light.x, max(light.y, light.z)) <= 0.0f) return vec3(0.0f);
+        entry = next_crossed(origin, direction, inverse, far, at, hit);
+    }
+    return light;
+}
+
+/// The nearest surface along a ray that does not let the view through, or no_map; sets where it is met.
+uint nearest_surface(vec3 origin, vec3 direction, float far, LW_INOUT(vec2) barycentrics) LW_MEMBER {
+    vec3 inverse = inverse_of(direction);
+    Traversal at = start_traversal();
+    vec3 hit = vec3(0.0f);
+    uint nearest = no_map;
+    uint entry = next_crossed(origin, direction, inverse, far, at, hit);
+    while (entry != no_map) {
+        uint triangle = entry & ~bvh_see_through;
+        bool through = (entry & bvh_see_through) != 0u;
+        if (has_alpha || has_transmission) through = through && is_see_through(triangle, vec2(hit.x, hit.y));
+        if (!through) {
+            nearest = triangle;
+            barycentrics = vec2(hit.x, hit.y);
+            far = hit.z;
+        }
+        entry = next_crossed(origin, direction, inverse, far, at, hit);
+    }
+    return nearest;
+}
