@@ -34,14 +34,18 @@ struct SurfacePoint {
     vec3 position, normal;  // geometric, to the viewer
 };
 
+std::optional<Hit> visible_hit(const RayCaster& caster, const ReferenceView& view, size_t pixel) {
+    const float x = float(pixel % view.width) + 0.5f, y = float(pixel / view.width) + 0.5f;
+    return caster.nearest(view.camera.position, camera_direction(view.camera, x, y, int(view.width), int(view.height)));
+}
+
 std::optional<SurfacePoint> visible_point(const Scene& scene, const RayCaster& caster, const ReferenceView& view,
                                           size_t pixel) {
-    const float x = float(pixel % view.width) + 0.5f, y = float(pixel / view.width) + 0.5f;
-    const vec3 direction = camera_direction(view.camera, x, y, int(view.width), int(view.height));
-    const std::optional<Hit> hit = caster.nearest(view.camera.position, direction);
+    const std::optional<Hit> hit = visible_hit(caster, view, pixel);
     if (!hit) return std::nullopt;
     const Surface s = SurfaceReader(scene).surface_at(hit->triangle, hit->barycentrics);
-    return SurfacePoint{s.position, dot(s.geometric_normal, direction) > 0 ? -s.geometric_normal : s.geometric_normal};
+    const bool back = dot(s.geometric_normal, s.position - view.camera.position) > 0;
+    return SurfacePoint{s.position, back ? -s.geometric_normal : s.geometric_normal};
 }
 
 bool is_border(const Scene& scene, const RayCaster& caster, const SurfacePoint& point, float reach) {
@@ -81,10 +85,10 @@ std::vector<double> plane_of(const Image& image, Quantity quantity, bool error) 
 }
 
 void add_border_error(const std::vector<double>& picture, const std::vector<double>& truth,
-                      const std::vector<bool>& border, FrameError& error) {
+                      const std::vector<bool>& border, const std::vector<bool>& measured, FrameError& error) {
     double sum = 0, true_sum = 0, count = 0;
     for (size_t i = 0; i < border.size(); ++i)
-        if (border[i]) sum += picture[i], true_sum += truth[i], count += 1;
+        if (border[i] && (measured.empty() || measured[i])) sum += picture[i], true_sum += truth[i], count += 1;
     error.border_share = border.empty() ? 0 : count / double(border.size());
     error.border_bias = true_sum > 0 ? sum / true_sum - 1 : std::numeric_limits<double>::quiet_NaN();
 }
@@ -119,16 +123,33 @@ std::vector<bool> border_pixels(const Scene& scene, const RayCaster& caster, con
     return {found.begin(), found.end()};
 }
 
-FrameError error_of(const Image& picture, const Image& reference, Quantity quantity, const std::vector<bool>& border) {
+std::vector<bool> gathered_pixels(const Scene& scene, const RayCaster& caster, const ReferenceView& view) {
+    const SurfaceReader surfaces(scene);
+    std::vector<char> gathered(size_t(view.width) * view.height, 0);
+    parallel_for(
+        gathered.size(),
+        [&](size_t i) {
+            const std::optional<Hit> hit = visible_hit(caster, view, i);
+            if (!hit) return;
+            const Surface s = surfaces.surface_at(hit->triangle, hit->barycentrics);
+            gathered[i] = !surfaces.is_purely_specular(s) && s.transmission <= 0.5f;
+        },
+        256);
+    return {gathered.begin(), gathered.end()};
+}
+
+FrameError error_of(const Image& picture, const Image& reference, Quantity quantity, const std::vector<bool>& border,
+                    const std::vector<bool>& measured) {
     const std::vector<double> a = plane_of(picture, quantity, false), r = plane_of(reference, quantity, false);
     const std::vector<double> noise = plane_of(reference, quantity, true);
-    double sum = 0, mean = 0, squared = 0, noise_squared = 0;
+    double sum = 0, mean = 0, squared = 0, noise_squared = 0, count = 0;
     for (size_t i = 0; i < r.size(); ++i) {
+        if (!measured.empty() && !measured[i]) continue;
+        count += 1;
         sum += a[i], mean += r[i];
         squared += (a[i] - r[i]) * (a[i] - r[i]);
         noise_squared += noise[i] * noise[i];
     }
-    const auto count = double(r.size());
     FrameError error;
     error.bias = sum / mean - 1;
     mean /= count;
@@ -136,7 +157,7 @@ FrameError error_of(const Image& picture, const Image& reference, Quantity quant
     error.reference_error = std::sqrt(noise_squared / count) / mean;
     error.rmse_without_noise = std::sqrt(std::max(0.0, squared - noise_squared) / count) / mean;
     error.flip = picture.find("R") ? compare(picture, reference).flip : std::numeric_limits<double>::quiet_NaN();
-    add_border_error(a, r, border, error);
+    add_border_error(a, r, border, measured, error);
     return error;
 }
 

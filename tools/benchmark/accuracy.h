@@ -25,6 +25,10 @@ Image cached_reference(const std::filesystem::path& folder, const Scene& scene, 
 std::vector<bool> border_pixels(const Scene& scene, const RayCaster& caster, const ReferenceView& view,
                                 float reach = 0.1f);
 
+/// Per pixel: whether the visible point is on a surface whose illuminance is gathered: not a mirror, which keeps no
+/// photons, and not glass, which the gather looks through and the path tracer's illuminance does not.
+std::vector<bool> gathered_pixels(const Scene& scene, const RayCaster& caster, const ReferenceView& view);
+
 /// All relative to the mean of the reference.
 struct FrameError {
     double rmse = 0;                // as measured, with the noise of the reference in it
@@ -39,8 +43,9 @@ struct FrameError {
 /// Which plane is compared: lux at the surface, or the luminance of the picture (cd/m2).
 enum class Quantity { illuminance, luminance };
 
+/// `measured` leaves pixels out of everything but FLIP; empty: none.
 FrameError error_of(const Image& picture, const Image& reference, Quantity quantity,
-                    const std::vector<bool>& border = {});
+                    const std::vector<bool>& border = {}, const std::vector<bool>& measured = {});
 
 /// Appends rmse, rmse_without_noise, reference_error, bias, border_bias and flip, in percent but for FLIP.
 void add_error(Row& row, const FrameError& error);

@@ -14,7 +14,8 @@ namespace lw {
 const std::vector<GatherMode>& gather_modes() {
     static const std::vector<GatherMode> modes{{"exact kNN", 0, true, PhotonEstimator::heap_size},
                                                {"smooth", 1, true, 1'000'000},
-                                               {"cached", 2, false, 50}};  // its neighbours are the bake's
+                                               {"cached", 2, false, 50},  // its neighbours are the bake's
+                                               {"cached, no rays", 2, false, 50, 0}};
     return modes;
 }
 

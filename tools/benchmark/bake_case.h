@@ -21,6 +21,7 @@ struct GatherMode {
     uint mode;    // GatherSettings::mode
     bool on_cpu;  // PhotonEstimator evaluates it, so that candidates can be counted
     uint most;    // largest number of neighbours it takes
+    uint shadow_rays = GatherSettings{}.shadow_rays;
 };
 
 /// Every mode that GatherSettings has; the sections iterate over this table.
