@@ -91,8 +91,8 @@ uint64_t checksum_of(const Header& header, const PhotonMap& map) {
 }
 
 constexpr float most_metres = 1e10f;     // beyond it, what the shaders compute from a place may not be a number
-constexpr float most_cells = 1e6f;       // across a search radius: the shaders walk them
-constexpr uint most_columns = 1u << 23;  // and rows: the shaders count them in floats and ints
+constexpr float most_cells = 1e9f;       // across a search radius: the shaders count them in ints
+constexpr uint most_columns = 1u << 23;  // and rows: the shaders count them in floats
 
 bool is_place(float metres) { return std::abs(metres) < most_metres; }
 

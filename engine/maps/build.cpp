@@ -223,6 +223,7 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
         check_radius(scene, settings.radius);
     else if (!(settings.radius > 0))
         settings.radius = automatic_radius(scene, photons.records.size());
+    settings.radius = std::min(settings.radius, scene.size());  // nothing is farther
     PhotonMap map;
     map.scene_hash = scene.content_hash;
     map.settings = settings;

@@ -67,6 +67,13 @@ TEST(Bake, ARadiusTooSmallForTheSceneIsRefused) {
     EXPECT_THROW(build_photon_map(scene, caster, photons, {1000, 1e-6f, 60, 1}), Error);
 }
 
+TEST(Bake, ARadiusLargerThanTheSceneIsItsSize) {
+    const Scene scene = load_gltf(file_in_data("cube.gltf"));
+    const RayCaster caster(scene);
+    const Photons photons = shoot_photons(scene, caster, {1000, 1});
+    EXPECT_EQ(build_photon_map(scene, caster, photons, {1000, 1e9f, 60, 1}).settings.radius, scene.size());
+}
+
 TEST(Photons, AWhiteFloorUnderTheSkyIsLitAlthoughItAbsorbsNothing) {
     Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/cube.gltf");
     scene.triangles.resize(2);
