@@ -190,7 +190,8 @@ float visible_part_around(LampsAround around, uint shift) LW_MEMBER {
 }
 
 /// Adds the direct light of all lamps at a point of `map` to what the photons say. `seed` shifts the points on mesh
-/// lamps (Cranley & Patterson 1976) of the R2 sequence (Roberts 2018). The cached mode has the light of meshes in its nodes.
+/// lamps (Cranley & Patterson 1976) of the R2 sequence (Roberts 2018). The cached mode has the light of meshes in its nodes,
+/// but a surface without photons has no nodes.
 void add_direct(uint map, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
     LampsAround around = lamps_around(map, s.position, 0u);
@@ -204,7 +205,7 @@ void add_direct(uint map, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_v
         vec3 weight = light_weight(i);
         bool mesh = lamp.type == light_mesh;
         if (seen == some_hidden || max(weight.x, max(weight.y, weight.z)) <= 0.0f) continue;
-        if (mesh && gather_mode == gather_mode_cached) continue;
+        if (mesh && gather_mode == gather_mode_cached && map != no_map) continue;
         if (!has_shadow_rays && seen != 0u) weight *= visible_part_around(around, shift);
         uint random = hash_uint(seed + hash_uint(i));
         vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
