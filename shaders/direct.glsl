@@ -108,12 +108,12 @@ float visible_part_around(LampsAround around, uint shift) LW_MEMBER {
 
 /// Adds the light of lamp `i`, of which `seen` says what is known (some_visible, some_hidden) and `part` how much of it
 /// the nodes around see.
-void add_lamp(uint i, uint seen, float part, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+void add_lamp(uint map, uint i, uint seen, float part, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
               LW_INOUT(Gathered) sum) LW_MEMBER {
     Light lamp = light_at(i);
     bool mesh = lamp.type == light_mesh;
     vec3 weight = light_weight(i);
-    if (mesh && gather_mode == gather_mode_cached) return;  // in the nodes
+    if (mesh && gather_mode == gather_mode_cached && map != no_map) return;  // in the nodes
     if (!has_shadow_rays && seen != 0u) weight *= part;
     uint random = hash_uint(seed + hash_uint(i));
     vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
@@ -147,7 +147,7 @@ void add_direct(uint map, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_v
         while (todo != 0u) {
             uint shift = uint(findLSB(todo));
             todo &= todo - 1u;
-            add_lamp(first + shift / 4u, (seen >> shift) & (some_visible | some_hidden), visible_part_around(around, shift),
+            add_lamp(map, first + shift / 4u, (seen >> shift) & (some_visible | some_hidden), visible_part_around(around, shift),
                      s, n_geometric, n_shading, to_view, seed, sum);
         }
     }

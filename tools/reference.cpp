@@ -68,10 +68,12 @@ int main(int argc, char** argv) {
     app.add_option("--camera", options.camera, "camera by name (default: the first)");
     app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     app.add_option("--samples", options.settings.samples,
-                   "paths per pixel (default 256, without limit when --time or --error is given)");
-    app.add_option("--time", options.settings.seconds, "stop after this many seconds");
+                   "paths per pixel (default 256, without limit when --time or --error is given)")
+        ->check(CLI::Range(1, 1 << 30));
+    app.add_option("--time", options.settings.seconds, "stop after this many seconds")->check(CLI::Range(1e-3, 1e9));
     app.add_option("--error", options.settings.error,
-                   "stop at this relative standard error of the picture, such as 0.01");
+                   "stop at this relative standard error of the picture, such as 0.01")
+        ->check(CLI::Range(1e-6, 1e3));
     app.add_option("--power", options.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
         ->allow_extra_args(false);
     app.add_flag("!--no-illuminance", options.settings.illuminance,

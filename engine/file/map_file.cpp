@@ -90,22 +90,28 @@ uint64_t checksum_of(const Header& header, const PhotonMap& map) {
     throw Error(path.string() + ": " + what + "; bake the map again");
 }
 
-bool all_finite(const SurfaceGrid& g) {
-    const auto finite = [](vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
-    return finite(g.origin) && finite(g.u_axis) && finite(g.v_axis) && finite(g.normal) && finite(g.quantum) &&
-           std::isfinite(g.h_origin) && std::isfinite(g.cell_size) && g.cell_size > 0 && std::isfinite(g.radius) &&
-           g.radius > 0;
+constexpr float most_metres = 1e10f;     // beyond it, what the shaders compute from a place may not be a number
+constexpr float most_cells = 1e9f;       // across a search radius: the shaders count them in ints
+constexpr uint most_columns = 1u << 23;  // and rows: the shaders count them in floats
+
+bool is_place(float metres) { return std::abs(metres) < most_metres; }
+
+bool is_usable(const SurfaceGrid& g) {
+    const auto place = [](vec3 v) { return is_place(v.x) && is_place(v.y) && is_place(v.z); };
+    const auto axis = [](vec3 v) { return std::abs(v.x) < 2 && std::abs(v.y) < 2 && std::abs(v.z) < 2; };
+    return place(g.origin) && axis(g.u_axis) && axis(g.v_axis) && axis(g.normal) && place(g.quantum) &&
+           is_place(g.h_origin) && is_place(g.cell_size) && g.cell_size > 0 && is_place(g.radius) && g.radius > 0 &&
+           g.radius <= most_cells * g.cell_size && g.columns <= most_columns && g.rows <= most_columns;
 }
 
-/// A map with lattices keeps a value for each of their nodes.
+/// Every grid has a lattice, and the map a value for each of their nodes.
 void check_lattices(const std::filesystem::path& path, const PhotonMap& map) {
-    if (!map.has_coverage()) return;
     uint64_t nodes = 0;
     for (size_t i = 0; i < map.grids.size(); ++i) {
         const SurfaceLattice& l = map.grids[i].lattice;
-        const auto above = [](float v, float low) { return std::isfinite(v) && v > low; };
-        if (l.columns < 2 || l.rows < 2 || l.first_node != nodes || !above(l.step.x, 0) || !above(l.step.y, 0) ||
-            !std::isfinite(l.low.x) || !std::isfinite(l.low.y) ||
+        const auto is_step = [](float v) { return v > 0 && is_place(v); };
+        if (l.columns < 2 || l.rows < 2 || l.columns > most_columns || l.rows > most_columns || l.first_node != nodes ||
+            !is_step(l.step.x) || !is_step(l.step.y) || !is_place(l.low.x) || !is_place(l.low.y) ||
             uint64_t(l.columns) * l.rows > map.coverage.size() - nodes)
             refuse(path, "the lattice of grid " + std::to_string(i) + " is not valid");
         nodes += uint64_t(l.columns) * l.rows;
@@ -118,7 +124,7 @@ void check_grids(const std::filesystem::path& path, const PhotonMap& map) {
     for (size_t i = 0; i < map.grids.size(); ++i) {
         const SurfaceGrid& g = map.grids[i];
         const uint64_t here = uint64_t(g.columns) * g.rows;
-        if (!all_finite(g) || here == 0 || g.first_cell != cells || here > map.cell_starts.size() - cells)
+        if (!is_usable(g) || here == 0 || g.first_cell != cells || here > map.cell_starts.size() - cells)
             refuse(path, "grid " + std::to_string(i) + " is not valid");
         cells += here;
     }

@@ -12,7 +12,6 @@ namespace {
 ShaderConstants with_mode(ShaderConstants constants, GatherSettings settings) {
     constants[constant_gather_mode] = settings.mode;
     constants[constant_heap_size] = settings.mode == 0 ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
-    if (settings.mode == gather_mode_cached) constants[constant_has_mesh_lamps] = false;
     constants[constant_has_shadow_rays] = settings.shadow_rays > 0;
     return constants;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "maps/coverage.h"
 #include "maps/irradiance.h"
@@ -137,15 +139,31 @@ std::vector<uint> keep_lit_patches(const References& references, const Patches& 
 
 }  // namespace
 
-float automatic_radius(const Scene& scene, uint64_t photons) {
+double area_of(const Scene& scene) {
     double area = 0;
     for (const uvec3& t : scene.triangles) {
         const vec3 a = scene.positions[t.x];
         area += 0.5 * double(length(cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
     }
+    return area;
+}
+
+float automatic_radius(const Scene& scene, uint64_t photons) {
+    const double area = area_of(scene);
     const float half_diagonal = 0.5f * length(scene.bounds[1] - scene.bounds[0]);
     const double wanted = std::sqrt(250 * area / (double(lw_pi) * double(std::max<uint64_t>(photons, 1))));
     return std::min(float(wanted), half_diagonal);
+}
+
+/// Refuses a radius so small that the lattices, which follow it, would take hours and all the memory.
+void check_radius(const Scene& scene, float radius) {
+    constexpr double most_discs = 4e6;  // of this radius, on all surfaces: 400 million samples of their coverage
+    const double least = std::sqrt(area_of(scene) / (double(lw_pi) * most_discs));
+    if (double(radius) >= least) return;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", least);
+    throw Error(scene.path.filename().string() + ": the radius is too small for the scene; give at least " + text +
+                " m or auto");
 }
 
 bool needs_directions(const Scene& scene) {
@@ -201,7 +219,11 @@ void add_coverage(const Scene& scene, const RayCaster& caster, const Partition& 
 }  // namespace
 
 PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings) {
-    if (!(settings.radius > 0)) settings.radius = automatic_radius(scene, photons.records.size());
+    if (settings.radius > 0 && !photons.records.empty())
+        check_radius(scene, settings.radius);
+    else if (!(settings.radius > 0))
+        settings.radius = automatic_radius(scene, photons.records.size());
+    settings.radius = std::min(settings.radius, scene.size());  // nothing is farther
     PhotonMap map;
     map.scene_hash = scene.content_hash;
     map.settings = settings;

@@ -27,6 +27,7 @@ struct Chunk {
     uint64_t first, last;
     std::vector<Photon> photons;
     double emitted_flux = 0, absorbed = 0, escaped = 0;
+    uint64_t shown = 0;  // hits of surfaces that can show light
 };
 
 class Shooter {
@@ -78,7 +79,9 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
         }
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
         const bool back = dot(s.geometric_normal, direction) > 0;
-        if (!surfaces_.is_purely_specular(s) && (path != path_direct || settings_.direct_in_photons))
+        const bool shows_light = !surfaces_.is_purely_specular(s);
+        chunk.shown += shows_light;
+        if (shows_light && (path != path_direct || settings_.direct_in_photons))
             chunk.photons.push_back(
                 {s.position, flux, -direction, hit->triangle, pack_origin(chunk.light, path, back)});
         const std::optional<Scatter> next = sample_bsdf(surfaces_, s, -direction, rng);
@@ -140,15 +143,16 @@ std::vector<uint64_t> plan_emission(const Shooter& shooter, const Scene& scene, 
     const size_t count = scene.lights.size();
     std::vector<Chunk> pilots = split_paths(std::vector<uint64_t>(count, pilot_paths), std::vector<uint64_t>(count, 0));
     parallel_for(pilots.size(), [&](size_t i) { shooter.trace(pilots[i], double(pilot_paths)); });
-    std::vector<double> yield(count, 0), useful(count, 0), landed(count, 0);
+    std::vector<double> yield(count, 0), useful(count, 0);
+    uint64_t shown = 0;
     for (const Chunk& pilot : pilots) {
         yield[pilot.light] += double(pilot.photons.size()) / double(pilot_paths);
-        landed[pilot.light] += pilot.absorbed;
+        shown += pilot.shown;
         for (const Photon& p : pilot.photons)
             useful[pilot.light] +=
                 luminance(p.flux * scene.lights[pilot.light].intensity) * (p.path() == path_direct ? 0.05 : 1);
     }
-    if (!std::any_of(landed.begin(), landed.end(), [](double flux) { return flux > 0; }))
+    if (shown == 0)
         throw Error(scene.path.filename().string() +
                     ": no light reaches a surface that can show it; check where the lamps stand and point");
     double sum = 0;

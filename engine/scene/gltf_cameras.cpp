@@ -37,6 +37,16 @@ void set_orthographic(const tinygltf::OrthographicCamera& source, const Scene& s
     if (height > 0 && width > 0) camera.aspect = float(width / height);
 }
 
+/// Facing a scene without depth, such as a floor or a wall, whose side `flat` is the thin one.
+void face_flat_scene(vec3 size, int flat, Camera& camera) {
+    vec3 back(0);
+    back[flat] = 1;
+    if (flat == 1) back = normalize(vec3(0, 1, 1));
+    const vec3 right = normalize(cross(vec3(0, 1, 0), back));
+    camera.position = back * (1.2f * std::max({size.x, size.y, size.z}));  // positions are relative to the middle
+    camera.rotation = mat3(right, cross(back, right), back);
+}
+
 /// In the middle of one end of the scene, at eye height (half way up in something lower), looking along its length.
 Camera default_camera(const Scene& scene) {
     const vec3 low = scene.bounds[0], size = scene.bounds[1] - scene.bounds[0];
@@ -49,7 +59,13 @@ Camera default_camera(const Scene& scene) {
     camera.position += back * ((along_x ? size.x : size.z) * 0.45f);
     camera.rotation = mat3(cross(vec3(0, 1, 0), back), vec3(0, 1, 0), back);
     camera.yfov = 1.1f;
-    camera.near = std::clamp(std::max({size.x, size.y, size.z}) * 1e-3f, 1e-5f, 0.05f);
+    const float longest = std::max({size.x, size.y, size.z});
+    camera.near = std::clamp(longest * 1e-3f, 1e-5f, 0.05f);
+    for (int side : {1, 2, 0})
+        if (size[side] < 1e-3f * longest) {
+            face_flat_scene(size, side, camera);
+            break;
+        }
     return camera;
 }
 

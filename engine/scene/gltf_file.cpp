@@ -124,6 +124,47 @@ void check_before_parsing(GltfFile& file, const Json& root) {
     check_uris(file, root, "images");
 }
 
+/// Whether tinygltf takes the entry; it refuses a whole file for one image without bytes.
+bool has_readable_source(const Json& image, size_t view_count) {
+    const bool has_uri = image.contains("uri"), has_view = image.contains("bufferView");
+    if (has_uri == has_view) return false;
+    if (has_view) return image["bufferView"].is_number_unsigned() && image["bufferView"].get<uint64_t>() < view_count;
+    if (!image["uri"].is_string()) return false;
+    const auto uri = image["uri"].get<std::string>();
+    std::vector<unsigned char> bytes;
+    std::string mime;
+    return !tinygltf::IsDataURI(uri) || tinygltf::DecodeDataURI(&bytes, mime, uri, 0, false);
+}
+
+/// Gives unreadable images bytes that are no picture, so that they end as any picture that cannot be decoded.
+/// True when there were some.
+bool replace_unreadable_images(Json& root) {
+    const auto images = root.find("images"), views = root.find("bufferViews");
+    if (images == root.end() || !images->is_array()) return false;
+    const size_t view_count = views != root.end() && views->is_array() ? views->size() : 0;
+    bool replaced = false;
+    for (Json& image : *images) {
+        if (!image.is_object() || has_readable_source(image, view_count)) continue;
+        image.erase("bufferView");
+        image["uri"] = "data:image/png;base64,AAAA";
+        replaced = true;
+    }
+    return replaced;
+}
+
+/// The file with another JSON text.
+std::vector<unsigned char> with_json(const std::vector<unsigned char>& bytes, std::string text) {
+    if (!is_binary(bytes)) return {text.begin(), text.end()};
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::vector<unsigned char> changed(bytes.begin(), bytes.begin() + glb_header_bytes);
+    changed.insert(changed.end(), text.begin(), text.end());
+    changed.insert(changed.end(), bytes.begin() + glb_header_bytes + word_at(bytes, 12),
+                   bytes.begin() + word_at(bytes, 8));
+    const uint32_t sizes[] = {uint32_t(changed.size()), uint32_t(text.size())};
+    std::memcpy(changed.data() + 8, sizes, sizeof sizes);
+    return changed;
+}
+
 /// Keeps the encoded bytes of an image with a URI; images in buffer views are read, bounds-checked, when needed.
 bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
                   int size, void*) {
@@ -165,8 +206,10 @@ void GltfFile::warn(const std::string& what) {
 GltfFile open_gltf(const std::filesystem::path& path) {
     GltfFile file;
     file.name = path.filename().string();
-    const std::vector<unsigned char> bytes = read_bytes(path);
-    check_before_parsing(file, parse_json(file, json_text(file, bytes)));
+    std::vector<unsigned char> bytes = read_bytes(path);
+    Json root = parse_json(file, json_text(file, bytes));
+    check_before_parsing(file, root);
+    if (replace_unreadable_images(root)) bytes = with_json(bytes, root.dump());
 
     std::string folder = std::filesystem::absolute(path).parent_path().string(), error, unused;
     tinygltf::TinyGLTF parser;

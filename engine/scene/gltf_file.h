@@ -12,6 +12,9 @@
 
 namespace lw {
 
+/// Largest extent of a scene; farther, distances to powers overflow the floats of rays and estimates.
+constexpr double most_metres = 1e9;
+
 struct GltfFile {
     std::string name;  // file name without folder, the first word of every message
     tinygltf::Model model;

@@ -72,7 +72,8 @@ void find_origin(const GltfFile& file, const std::vector<PlacedMesh>& placed, Sc
     if (std::max(vertices, triangles) >= std::numeric_limits<uint>::max())
         file.fail("the scene has more than 2^32 vertices or triangles");
     const glm::dvec3 size = high - low;
-    if (!(size.x < 1e18 && size.y < 1e18 && size.z < 1e18)) file.fail("the scene is larger than 1e18 m");
+    if (!(size.x < most_metres && size.y < most_metres && size.z < most_metres))
+        file.fail("the scene is larger than 1e9 m");
     scene.origin = low + size * 0.5;
     scene.bounds = {vec3(low - scene.origin), vec3(high - scene.origin)};
     scene.positions.reserve(vertices);

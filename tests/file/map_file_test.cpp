@@ -5,6 +5,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -90,6 +92,53 @@ TEST_F(MapFile, DamagedMapSaysThatTheMapChanged) {
 TEST_F(MapFile, IntoAMissingFolderIsRefusedAndLeavesNothing) {
     EXPECT_THROW(save_photon_map("/nonexistent/folder/x.pmap", map), Error);
     EXPECT_FALSE(std::filesystem::exists("/nonexistent/folder"));
+}
+
+/// Damage with a right checksum: only the bounds are left to refuse what would lead the shaders out of their arrays.
+TEST_F(MapFile, SignedMapsThatLeadOutOfTheirArraysAreRefused) {
+    const auto refused = [&](const auto& damage) {
+        PhotonMap bad = map;
+        damage(bad);
+        save_photon_map(path, bad);
+        EXPECT_THROW(load_photon_map(path, scene), Error);
+    };
+    ASSERT_FALSE(map.visible_lamps.empty());
+    refused([](PhotonMap& m) { m.coverage.pop_back(); });
+    refused([](PhotonMap& m) { m.coverage.clear(); });
+    refused([](PhotonMap& m) { m.coverage.clear(), m.visible_lamps.clear(); });
+    refused([](PhotonMap& m) { m.coverage.clear(), m.visible_lamps.clear(), m.irradiance.clear(); });
+    refused([](PhotonMap& m) { m.visible_lamps.pop_back(); });
+    refused([](PhotonMap& m) { m.irradiance.pop_back(); });
+    refused([](PhotonMap& m) { m.irradiance.clear(); });
+    refused([](PhotonMap& m) { m.places.pop_back(); });
+    refused([](PhotonMap& m) { m.places[0].h_light_and_path |= light_mask << 16; });
+    refused([](PhotonMap& m) { m.triangle_maps[0] = uint(m.grids.size()); });
+    refused([](PhotonMap& m) { m.cell_starts[0] = uint(m.places.size()) + 1; });
+    refused([](PhotonMap& m) { m.cell_starts[0] = 1, m.cell_starts[1] = std::max(m.cell_starts[1], 1u); });
+    refused([](PhotonMap& m) { m.irradiance_scale = 0; });
+    refused([](PhotonMap& m) { m.flux_scale = -1; });
+}
+
+TEST_F(MapFile, SignedGridsThatLeadOutOfTheirArraysAreRefused) {
+    const auto refused = [&](const char* what, const auto& damage) {
+        PhotonMap bad = map;
+        damage(bad.grids.back());
+        save_photon_map(path, bad);
+        EXPECT_THROW(load_photon_map(path, scene), Error) << what;
+    };
+    refused("columns", [](SurfaceGrid& g) { ++g.columns; });
+    refused("no rows", [](SurfaceGrid& g) { g.rows = 0; });
+    refused("first cell", [](SurfaceGrid& g) { ++g.first_cell; });
+    refused("lattice columns", [](SurfaceGrid& g) { ++g.lattice.columns; });
+    refused("huge lattice", [](SurfaceGrid& g) { g.lattice.columns = g.lattice.rows = 0xffffffffu; });
+    refused("no cell of a lattice", [](SurfaceGrid& g) { g.lattice.rows = 1; });
+    refused("first node", [](SurfaceGrid& g) { ++g.lattice.first_node; });
+    refused("step", [](SurfaceGrid& g) { g.lattice.step.x = 0; });
+    refused("place", [](SurfaceGrid& g) { g.lattice.low.y = NAN; });
+    refused("origin", [](SurfaceGrid& g) { g.origin.x = 1e30f; });
+    refused("axis", [](SurfaceGrid& g) { g.u_axis.x = 1e30f; });
+    refused("cell size", [](SurfaceGrid& g) { g.cell_size = 1e-30f; });
+    refused("radius", [](SurfaceGrid& g) { g.radius = INFINITY; });
 }
 
 TEST_F(MapFile, LambertSceneStoresNoDirections) { EXPECT_FALSE(map.has_directions()); }

@@ -5,6 +5,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "maps/build.h"
+#include "photons/shoot.h"
+#include "scene/gltf.h"
+#include "trace/build_bvh.h"
 
 namespace lw {
 namespace {
@@ -125,6 +129,30 @@ TEST(Renderer, GathersAnEvenFieldOfPhotonsAsItsIlluminance) {
         EXPECT_NEAR(picture.image.find("R")->values[pixel], 3 * 0.5f / lw_pi, 0.05f) << mode;
     }
     EXPECT_EQ(device.validation_messages(), std::vector<std::string>{});
+}
+
+TEST(Renderer, LightsBlackSurfacesByMeshesInEveryMode) {
+    Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/cornell.gltf");
+    for (Material& m : scene.materials) m.base_color = vec3(0), m.specular = 0, m.metallic = 0;
+    const RayCaster caster(scene);
+    const Photons photons = shoot_photons(scene, caster, {1000, 1});
+    ASSERT_TRUE(photons.records.empty());
+    const PhotonMap map = build_photon_map(scene, caster, photons, {1000, 0, 60, 1});
+    const Device device({"", true});
+    const Bvh bvh = build_bvh(scene);
+    const Resident resident(device, scene, map, bvh);
+    Renderer renderer(device, resident, 24, 24);
+    std::vector<double> lux;
+    for (uint mode : {gather_mode_cached, gather_mode_smooth}) {
+        RenderSettings settings;
+        settings.gather.mode = mode;
+        double sum = 0;
+        const Rendering rendering = renderer.render(scene.cameras[0], settings);
+        for (float e : rendering.image.find("illuminance")->values) sum += double(e);
+        lux.push_back(sum);
+    }
+    EXPECT_GT(lux[1], 1);
+    EXPECT_NEAR(lux[0] / lux[1], 1, 1e-3);
 }
 
 TEST(Renderer, MakesTheSamePictureFromSplitPhotonArrays) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "maps/build.h"
 #include "maps/packing.h"
@@ -57,6 +58,35 @@ TEST(Bake, AnotherSeedGivesOtherPhotons) {
     const Photons a = shoot_photons(scene, caster, {1000, 1}), b = shoot_photons(scene, caster, {1000, 2});
     ASSERT_FALSE(a.records.empty());
     EXPECT_NE(a.records[0].position.x, b.records[0].position.x);
+}
+
+TEST(Bake, ARadiusTooSmallForTheSceneIsRefused) {
+    const Scene scene = load_gltf(file_in_data("cube.gltf"));
+    const RayCaster caster(scene);
+    const Photons photons = shoot_photons(scene, caster, {1000, 1});
+    EXPECT_THROW(build_photon_map(scene, caster, photons, {1000, 1e-6f, 60, 1}), Error);
+}
+
+TEST(Bake, ARadiusLargerThanTheSceneIsItsSize) {
+    const Scene scene = load_gltf(file_in_data("cube.gltf"));
+    const RayCaster caster(scene);
+    const Photons photons = shoot_photons(scene, caster, {1000, 1});
+    EXPECT_EQ(build_photon_map(scene, caster, photons, {1000, 1e9f, 60, 1}).settings.radius, scene.size());
+}
+
+TEST(Photons, AWhiteFloorUnderTheSkyIsLitAlthoughItAbsorbsNothing) {
+    Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/cube.gltf");
+    scene.triangles.resize(2);
+    scene.triangle_objects.resize(2);
+    for (Material& m : scene.materials) {
+        m.base_color = vec4(1);
+        m.metallic = 0;
+        m.specular = 0;
+    }
+    const RayCaster caster(scene);
+    const Photons photons = shoot_photons(scene, caster, {1000, 1});
+    EXPECT_LT(photons.lights[0].absorbed, 1e-6 * photons.lights[0].flux_out);
+    EXPECT_NO_THROW(build_photon_map(scene, caster, photons, {1000, 0, 60, 1}));
 }
 
 TEST(Photons, StoredFluxOfAClosedBoxIsEmittedOverOneMinusAlbedo) {

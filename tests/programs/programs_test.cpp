@@ -137,6 +137,9 @@ TEST(CommandLine, IsRefusedWith2WhenAValueMakesNoSense) {
         {"reference", {scene, "-o", png}},
         {"reference", {scene, "-o", exr, "--size", "0x10"}},
         {"reference", {scene, "-o", exr, "--power", "lamp"}},
+        {"reference", {scene, "-o", exr, "--samples", "0"}},
+        {"reference", {scene, "-o", exr, "--time", "-1"}},
+        {"reference", {scene, "-o", exr, "--error", "0"}},
         {"compare", {exr}},
     };
     for (const auto& [program, words] : senseless) {

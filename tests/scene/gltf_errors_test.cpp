@@ -18,8 +18,9 @@ std::string bytes_of(const std::filesystem::path& path) {
 }
 
 /// The square as a GLB: a JSON chunk and a BIN chunk.
-std::string square_glb() {
+std::string square_glb(const Json& images = Json()) {
     GltfText g = square();
+    if (!images.is_null()) g.doc["images"] = images;
     while (g.bytes.size() % 4) g.bytes.push_back(0);
     g.doc["buffers"] = {{{"byteLength", g.bytes.size()}}};
     std::string json = g.doc.dump();
@@ -45,6 +46,22 @@ TEST(GltfErrors, UsedExtensionThatChangesTheLookIsToldOnce) {
     const Scene s = g.load();
     ASSERT_EQ(s.warnings.size(), 1u);
     EXPECT_NE(s.warnings[0].find("KHR_materials_clearcoat"), std::string::npos);
+}
+
+TEST(GltfErrors, AnUnreadableImageOfAGlbIsNoReasonToRefuseIt) {
+    const std::string glb = square_glb(Json::array({{{"uri", "data:image/png;base64,!!!!"}}}));
+    Scene s;
+    EXPECT_EQ(error_of([&] { s = load_gltf(GltfText::write(glb, "room.glb")); }), "");
+    EXPECT_EQ(s.triangles.size(), 2u);
+}
+
+TEST(GltfErrors, TooFarForFloats) {
+    GltfText g = square();
+    g.node()["translation"] = {1e30, 0, 0};
+    EXPECT_NE(message(g).find("light 0: the position is too far away"), std::string::npos) << message(g);
+    g = square();
+    g.node()["scale"] = {1e12, 1, 1};
+    EXPECT_EQ(message(g), "room.gltf: the scene is larger than 1e9 m");
 }
 
 TEST(GltfErrors, NoPosition) {

@@ -87,11 +87,31 @@ TEST(GltfHash, IgnoresStrengthsAndCamerasButNotPlaces) {
 }
 
 TEST(GltfCameras, OneIsMadeUpInsideTheBounds) {
-    const Scene s = square().load();
+    GltfText g = square();
+    g.floats("POSITION", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1}, "VEC3");
+    const Scene s = g.load();
     ASSERT_EQ(s.cameras.size(), 1u);
     for (int c = 0; c < 3; ++c) {
         EXPECT_GE(s.cameras[0].position[c], s.bounds[0][c]);
         EXPECT_LE(s.cameras[0].position[c], s.bounds[1][c]);
+    }
+}
+
+TEST(GltfCameras, OneThatIsMadeUpSeesAFlatScene) {
+    for (const std::vector<float>& corners : {std::vector<float>{0, 0, 0, 3, 0, 0, 3, 2, 0, 0, 2, 0},
+                                              std::vector<float>{0, 0, 0, 0, 0, 3, 2, 0, 3, 2, 0, 0},
+                                              std::vector<float>{0, 0, 0, 0, 3, 0, 0, 3, 2, 0, 0, 2}}) {
+        GltfText g = square();
+        g.floats("POSITION", corners, "VEC3");
+        const Scene s = g.load();
+        const Camera& camera = s.cameras.at(0);
+        const vec3 normal = cross(s.positions[1] - s.positions[0], s.positions[2] - s.positions[0]);
+        EXPECT_GT(std::abs(dot(normalize(normal), normalize(camera.position))), 0.5f) << "seen edge-on";
+        for (vec3 corner : s.positions) {
+            const vec3 seen = transpose(camera.rotation) * (corner - camera.position);
+            EXPECT_LT(seen.z, -camera.near);
+            EXPECT_LT(std::abs(seen.y / seen.z), std::tan(0.5f * camera.yfov));
+        }
     }
 }
 

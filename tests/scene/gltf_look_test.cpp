@@ -123,13 +123,28 @@ TEST(GltfTextures, TransformIsOffsetTimesRotationTimesScale) {
 }
 
 TEST(GltfTextures, AnImageThatCannotBeDecodedLeavesItsFactor) {
-    for (const std::string uri : {"data:image/png;base64,AAAA", "data:image/webp;base64,UklGRg==", "missing.png"}) {
+    for (const std::string uri : {"data:image/png;base64,AAAA", "data:image/webp;base64,UklGRg==", "missing.png",
+                                  "data:image/png;base64,!!!!####", "data:image/png;base64,", "data:"}) {
         std::string error;
         Scene s;
         error = error_of([&] { s = textured(uri).load(); });
         ASSERT_EQ(error, "") << uri;
         EXPECT_EQ(s.materials[0].base_color_texture.texture, -1) << uri;
         ASSERT_EQ(s.warnings.size(), 1u) << uri;
+        EXPECT_NE(s.warnings[0].find("picture"), std::string::npos) << s.warnings[0];
+    }
+}
+
+TEST(GltfTextures, AnImageWithoutAUsableSourceLeavesItsFactor) {
+    for (const char* image :
+         {R"({"name": "picture"})", R"({"name": "picture", "bufferView": 99})", R"({"name": "picture", "uri": 7})",
+          R"({"name": "picture", "uri": "a.png", "bufferView": 0})"}) {
+        GltfText g = textured(png_uri);
+        g.doc["images"] = Json::array({Json::parse(image)});
+        Scene s;
+        ASSERT_EQ(error_of([&] { s = g.load(); }), "") << image;
+        EXPECT_EQ(s.materials[0].base_color_texture.texture, -1) << image;
+        ASSERT_EQ(s.warnings.size(), 1u) << image;
         EXPECT_NE(s.warnings[0].find("picture"), std::string::npos) << s.warnings[0];
     }
 }
