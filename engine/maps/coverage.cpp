@@ -115,7 +115,8 @@ bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance
     const vec3 origin = caster.offset(point, normal);
     for (int i = 0; i < rays_around; ++i) {
         const float u = (float(i) + rng.next()) / rays_around;
-        if (!caster.nearest(origin, frame * sample_cosine(u, rng.next()), clearance)) return false;
+        const vec3 direction = sample_cosine(u, rng.next());
+        if (!caster.nearest(origin, frame * direction, clearance / std::max(direction.z, 0.2f))) return false;
     }
     return true;
 }

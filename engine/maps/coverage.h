@@ -13,7 +13,7 @@ namespace lw {
 /// Surfaces closer than this under another one get no light.
 inline float clearance_of(float radius) { return 0.25f * radius; }
 
-/// True when every one of a few rays into the hemisphere meets a surface closer than `clearance`.
+/// True when every one of a few rays into the hemisphere meets a surface lower than `clearance` over the point.
 bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance, Rng& rng);
 
 /// Evenly spread points on both sides of all triangles, without those that lie closer than `clearance` metres under
