@@ -25,6 +25,8 @@ class Resident {
     /// Throws Error saying which array does not fit, and what would.
     Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh = {},
              ResidentSettings settings = {});
+    Resident(const Device&, const Scene&, PhotonMap&&, const Bvh& = {},
+             ResidentSettings = {}) = delete;  // would not outlive it
 
     /// Dims the lights: one factor per light of the scene, >= 0. Rewrites one small buffer.
     void set_light_factors(std::span<const float> factors);

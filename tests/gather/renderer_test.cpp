@@ -86,7 +86,8 @@ Rendering picture_of(const Device& device, const Scene& scene, const PhotonMap& 
 TEST(Renderer, SeesTheRightTriangleBarycentricsAndDepth) {
     const Device device({"", true});
     const Scene scene = two_walls();
-    const Resident resident(device, scene, no_photons());
+    const PhotonMap dark = no_photons();
+    const Resident resident(device, scene, dark);
     Renderer renderer(device, resident, 64, 48);
     const Rendering picture = renderer.render(scene.cameras[0], {});
     const std::vector<VisibleSample> visible = renderer.visible_samples();
@@ -109,7 +110,8 @@ TEST(Renderer, SeesTheRightTriangleBarycentricsAndDepth) {
 TEST(Renderer, ShowsTheGlowOfADimmedLampAndNothingElseWithoutPhotons) {
     const Device device({"", true});
     const Scene scene = two_walls();
-    Resident resident(device, scene, no_photons());
+    const PhotonMap dark = no_photons();
+    Resident resident(device, scene, dark);
     resident.set_light_factors(std::vector<float>{0.5f});
     Renderer renderer(device, resident, 64, 48);
     const Image image = renderer.render(scene.cameras[0], {{}, 0.0f, 4, 2}).image;
