@@ -156,10 +156,11 @@ bool replace_unreadable_images(Json& root) {
 std::vector<unsigned char> with_json(const std::vector<unsigned char>& bytes, std::string text) {
     if (!is_binary(bytes)) return {text.begin(), text.end()};
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::vector<unsigned char> changed(bytes.begin(), bytes.begin() + glb_header_bytes);
-    changed.insert(changed.end(), text.begin(), text.end());
-    changed.insert(changed.end(), bytes.begin() + glb_header_bytes + word_at(bytes, 12),
-                   bytes.begin() + word_at(bytes, 8));
+    const auto rest = bytes.begin() + glb_header_bytes + word_at(bytes, 12), end = bytes.begin() + word_at(bytes, 8);
+    std::vector<unsigned char> changed(glb_header_bytes + text.size() + size_t(end - rest));
+    std::copy_n(bytes.begin(), glb_header_bytes, changed.begin());
+    std::copy(text.begin(), text.end(), changed.begin() + glb_header_bytes);
+    std::copy(rest, end, changed.end() - (end - rest));
     const uint32_t sizes[] = {uint32_t(changed.size()), uint32_t(text.size())};
     std::memcpy(changed.data() + 8, sizes, sizeof sizes);
     return changed;
