@@ -199,9 +199,9 @@ struct Partition {
     std::vector<float> radii;
 };
 
-/// Lays the lattices and finds their coverage. All lengths follow the largest radius R: nodes every 0.5 R, a sample
-/// every 0.03 R2 (26 under a kernel of R/2), then what the nodes see of the lamps and their irradiance.
-void add_coverage(const Scene& scene, const RayCaster& caster, const Partition& partition,
+/// Lays the lattices and computes what their nodes keep. All lengths follow the largest radius R: nodes every 0.5 R, a
+/// sample every 0.03 R2 (26 under a kernel of R/2).
+void add_lattices(const Scene& scene, const RayCaster& caster, const Partition& partition,
                   const std::vector<uint>& kept, PhotonMap& map) {
     const float radius = map.settings.radius;
     std::vector<PatchShape> shapes;
@@ -258,7 +258,7 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     parallel_for(kept.size(), [&](size_t m) {
         fill_grid(map, uint(m), records, first(m), last(m), uint(references.starts[kept[m]]));
     });
-    add_coverage(scene, caster, partition, kept, map);
+    add_lattices(scene, caster, partition, kept, map);
     return map;
 }
 

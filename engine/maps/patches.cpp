@@ -39,10 +39,6 @@ struct PatchKeyHash {
     }
 };
 
-}  // namespace
-
-namespace {
-
 /// The heights a triangle side takes over the plane of its group.
 struct HeightSpan {
     uint group, side;

@@ -44,12 +44,6 @@ vec3 to_world(const SurfaceGrid& grid, vec3 local) {
     return grid.origin + local.x * grid.u_axis + local.y * grid.v_axis + local.z * grid.normal;
 }
 
-/// The height rule of shaders/gather.glsl.
-bool is_on_surface(float height, float distance_squared, float max_radius) {
-    const float excess = std::max(std::fabs(height) - 0.01f * max_radius, 0.0f);
-    return excess * excess <= 0.75f * distance_squared;
-}
-
 /// What a photon of the whole scene must pass to count at a query: the rules by which a map refers to it
 /// (engine/maps/references.cpp, with the distance to the query for that to the map) and by which the gather takes it.
 struct Rules {
@@ -64,7 +58,7 @@ struct Rules {
         const float cosine = dot(normal, query.normal);
         if (cosine < cos_angle) return false;
         const float height = std::fabs(dot(position - query.position, query.normal));
-        return is_explained(height, cosine, distance_squared) && is_on_surface(height, distance_squared, max_radius);
+        return is_explained(height, cosine, distance_squared) && on_same_surface(height, distance_squared, max_radius);
     }
     /// A sheet above or below is no part of the surface unless it is turned against it.
     bool is_explained(float height, float cosine, float distance_squared) const {
@@ -142,7 +136,7 @@ void MapGridSearch::visit(const Local& local, int x0, int x1, int y, NearestPhot
     for (uint i = map_.cell_starts[row + uint(std::max(x0, 0))]; i < last; ++i) {
         const vec3 d = place_in_grid(map_.places[i], grid) - local.point;
         const float d2 = dot(d, d);
-        if (d2 < nearest.bound() && is_on_surface(d.z, d2, map_.settings.radius)) nearest.add(d2, i);
+        if (d2 < nearest.bound() && on_same_surface(d.z, d2, map_.settings.radius)) nearest.add(d2, i);
     }
 }
 
@@ -191,7 +185,7 @@ void MapTreeSearch::find(const Query& query, NearestPhotons& nearest) const {
     search(*trees_[query.map], &local.x, nearest, [&](uint index, float& distance_squared) {
         const float height = points[index].z - local.z;
         distance_squared += height * height;
-        return is_on_surface(height, distance_squared, map_.settings.radius);
+        return on_same_surface(height, distance_squared, map_.settings.radius);
     });
 }
 

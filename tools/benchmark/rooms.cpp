@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/content_hash.h"
+#include "scene/gltf_materials.h"
 
 namespace lw {
 namespace {
@@ -114,17 +115,9 @@ class RoomMaker {
 };
 
 Material lambert(vec3 color) {
-    Material m{};
+    Material m = default_material();
     m.base_color = color;
-    m.alpha = 1;
-    m.roughness = 1;
-    m.specular_color = vec3(1);
-    m.ior = 1.5f;
-    m.alpha_cutoff = 0.5f;
-    m.normal_scale = 1;
-    for (TextureSlot* slot : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-                              &m.emissive_texture, &m.transmission_texture})
-        *slot = {-1, 0, vec3(1, 0, 0), vec3(0, 1, 0)};
+    m.metallic = m.specular = 0;
     return m;
 }
 
