@@ -16,6 +16,7 @@
 #include "trace/build_bvh.h"
 #include "trace/emitter.h"
 #include "trace/path_tracer.h"
+#include "trace/sampling.h"
 
 namespace lw {
 namespace {
@@ -221,6 +222,31 @@ TEST(Estimate, ShadowRaysAgreeWithEmbree) {
     EXPECT_GT(blocked, rays / 10);
     EXPECT_LT(blocked, rays * 9 / 10);
     EXPECT_LE(different, rays / 2000);  // rays that graze an edge
+}
+
+TEST(Estimate, WhatNodesSeeOfALampSavesRaysButChangesNoLight) {
+    const Scene scene = load_gltf(file_in_data("cornell.gltf"));
+    const RayCaster caster(scene);
+    const PhotonMap known =
+        build_photon_map(scene, caster, shoot_photons(scene, caster, {20000, 1}), {20000, 0, 60, 1});
+    ASSERT_TRUE(known.has_visible_lamps());
+    PhotonMap unknown = known;
+    unknown.visible_lamps.clear();
+    const Bvh bvh = build_bvh(scene);
+    const std::vector<vec3> weights = light_weights(scene, {});
+    const PhotonEstimator some_rays(scene, known, weights, {gather_mode_smooth, 50, 4}, bvh);
+    const PhotonEstimator all_rays(scene, unknown, weights, {gather_mode_smooth, 50, 4}, bvh);
+    Rng rng(3, 1, 1);
+    int different = 0, compared = 0;
+    for (uint t = 0; t < scene.triangles.size(); ++t)
+        for (int i = 0; i < 100; ++i) {
+            const vec2 place = sample_triangle(rng.next(), rng.next());
+            const vec3 n = all_rays.surface_at(t, place).geometric_normal;
+            const float expected = all_rays.estimate(t, place, n, uint(i)).irradiance.y;
+            different += std::abs(some_rays.estimate(t, place, n, uint(i)).irradiance.y - expected) > 0.01f * expected;
+            ++compared;
+        }
+    EXPECT_LE(different, compared / 50);
 }
 
 TEST(Estimate, ReferencesPerPhotonStayBounded) {
