@@ -1,7 +1,7 @@
 // Exact direct light by shadow rays through the BVH: one ray for a point, spot or directional lamp, `shadow_rays` for an
 // emissive mesh; with shadow_rays = 0 none, and shadows as sharp as the lattice. One text for C++ and GLSL. The including
-// scope provides what gather.glsl and rays.glsl need, the arrays emitters, visible_lamps, the functions light_at and
-// light_weight, and the constants has_mesh_lamps, has_emissive_textures, has_visible_lamps, has_shadow_rays, light_count,
+// scope provides what gather.glsl and rays.glsl need, the array emitters, the functions light_at,
+// light_weight, cell_lamps, and the constants has_mesh_lamps, has_emissive_textures, has_visible_lamps, has_shadow_rays, light_count,
 // shadow_rays, ray_epsilon, scene_size. Written for devices that run both sides of a branch: one place that traces.
 
 /// Light that would arrive at a point from one place of a lamp at unit intensity, if nothing stood between.
@@ -53,17 +53,17 @@ LightSample sample_mesh(Light lamp, vec3 position, vec2 u) LW_MEMBER {
     uint triangle = pick_emitter(lamp, u.x, within);
     float root = sqrt(within);
     vec2 barycentrics = vec2(root * (1.0f - u.y), root * u.y);
-    uvec3 corner = triangles[triangle];
-    vec3 ab = positions[corner.y] - positions[corner.x];
-    vec3 ac = positions[corner.z] - positions[corner.x];
-    vec3 path = positions[corner.x] + barycentrics.x * ab + barycentrics.y * ac - position;
+    vec3 a = corner_position(triangle, 0u);
+    vec3 ab = corner_position(triangle, 1u) - a;
+    vec3 ac = corner_position(triangle, 2u) - a;
+    vec3 path = a + barycentrics.x * ab + barycentrics.y * ac - position;
     float d2 = max(dot(path, path), 1e-30f);
     LightSample result;
     result.far = sqrt(d2);
     result.to_light = path / result.far;
     vec3 product = cross(ab, ac);
     float cos_emitted = -dot(product, result.to_light) / max(length(product), 1e-30f);
-    Material material = materials[objects[triangle_objects[triangle]].material];
+    Material material = material_of(triangle);
     if ((material.flags & material_double_sided) != 0u) cos_emitted = abs(cos_emitted);
     float area = emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below;
     vec3 emitted = material.emissive;
@@ -80,41 +80,20 @@ uint hash_uint(uint x) LW_MEMBER {  // Wellons 2018, "lowbias32"
     return x ^ (x >> 16);
 }
 
-/// What the four nodes around a point see of a group of lamps_per_word lamps.
-struct LampsAround {
-    uvec4 nodes;
-    vec2 f;  // where the point lies between them
-};
-
-LampsAround lamps_around(uint map, vec3 position, uint group) LW_MEMBER {
-    LampsAround around;
-    around.nodes = uvec4(0u);
-    around.f = vec2(0.0f);
-    if (!has_visible_lamps || map == no_map) return around;
-    SurfaceGrid grid = grids[map];
-    uint words = visibility_words(light_count);
-    uint node = cell_node(grid.lattice, position_in_grid(grid, position), around.f) * words + group;
-    uint above = node + grid.lattice.columns * words;
-    around.nodes = uvec4(visible_lamps[node], visible_lamps[node + words], visible_lamps[above], visible_lamps[above + words]);
-    return around;
+/// The part of a lamp that the corners of a cell see, between them.
+float visible_part(uint bits, vec2 f) LW_MEMBER {
+    vec4 sees = vec4(float((bits >> 4) & 1u), float((bits >> 5) & 1u), float((bits >> 6) & 1u), float((bits >> 7) & 1u));
+    return mix(mix(sees.x, sees.y, f.x), mix(sees.z, sees.w, f.x), f.y);
 }
 
-/// The part of a lamp that is seen, between the nodes.
-float visible_part_around(LampsAround around, uint shift) LW_MEMBER {
-    float low = mix(visible_part(around.nodes.x >> shift), visible_part(around.nodes.y >> shift), around.f.x);
-    float high = mix(visible_part(around.nodes.z >> shift), visible_part(around.nodes.w >> shift), around.f.x);
-    return mix(low, high, around.f.y);
-}
-
-/// Adds the light of lamp `i`, of which `seen` says what is known (some_visible, some_hidden) and `part` how much of it
-/// the nodes around see.
-void add_lamp(uint map, uint i, uint seen, float part, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+/// Adds the light of lamp `i`, of which the cell around knows `bits`.
+void add_lamp(MapPlace at, uint i, uint bits, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
               LW_INOUT(Gathered) sum) LW_MEMBER {
     Light lamp = light_at(i);
     bool mesh = lamp.type == light_mesh;
+    uint seen = bits & (some_visible | some_hidden);
     vec3 weight = light_weight(i);
-    if (mesh && gather_mode == gather_mode_cached && map != no_map) return;  // in the nodes
-    if (!has_shadow_rays && seen != 0u) weight *= part;
+    if (!has_shadow_rays && seen != 0u) weight *= visible_part(bits, at.f);
     uint random = hash_uint(seed + hash_uint(i));
     vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
     uint samples = mesh ? max(shadow_rays, 1u) : 1u;
@@ -133,22 +112,28 @@ void add_lamp(uint map, uint i, uint seen, float part, Surface s, vec3 n_geometr
     }
 }
 
-/// Adds the direct light of all lamps at a point of `map` to what the photons say; lamps that no node around sees are
-/// skipped. `seed` shifts the points on mesh lamps (Cranley & Patterson 1976) of the R2 sequence (Roberts 2018).
-void add_direct(uint map, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+/// One bit per lamp of a word of a cell, at its lowest: set for those a pixel has to add. Hidden ones are skipped, and in
+/// the cached mode those that the light of the cell holds.
+uint lamps_to_add(MapPlace at, uint word, LW_INOUT(uint) bits) LW_MEMBER {
+    bits = 0u;
+    if (has_visible_lamps && at.map != no_map) bits = cell_lamps(at.cell * cell_lamp_words(light_count) + word);
+    uint skipped = (bits >> 1) & ~bits;
+    if (gather_mode == gather_mode_cached) skipped |= bits >> 2;
+    uint left = light_count - word * cell_lamps_per_word;
+    uint all = left < cell_lamps_per_word ? (1u << (8u * left)) - 1u : 0xffffffffu;
+    return 0x01010101u & ~skipped & all;
+}
+
+/// Adds the direct light of the lamps of one word at a place. `seed` shifts the points on mesh lamps (Cranley & Patterson
+/// 1976) of the R2 sequence (Roberts 2018).
+void add_direct(MapPlace at, uint word, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
-    const uint one_each = 0x11111111u;
-    for (uint first = 0u; first < light_count; first += lamps_per_word) {
-        LampsAround around = lamps_around(map, s.position, visibility_word(first));
-        uint seen = around.nodes.x | around.nodes.y | around.nodes.z | around.nodes.w;
-        uint todo = one_each & ~((seen >> 1) & ~seen);
-        uint left = light_count - first;
-        if (left < lamps_per_word) todo &= (1u << (4u * left)) - 1u;
-        while (todo != 0u) {
-            uint shift = uint(findLSB(todo));
-            todo &= todo - 1u;
-            add_lamp(map, first + shift / 4u, (seen >> shift) & (some_visible | some_hidden), visible_part_around(around, shift),
-                     s, n_geometric, n_shading, to_view, seed, sum);
-        }
+    uint bits = 0u;
+    uint todo = lamps_to_add(at, word, bits);
+    while (todo != 0u) {
+        uint shift = uint(findLSB(todo));
+        todo &= todo - 1u;
+        add_lamp(at, word * cell_lamps_per_word + shift / 8u, (bits >> shift) & 255u, s, n_geometric, n_shading, to_view, seed,
+                 sum);
     }
 }

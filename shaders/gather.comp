@@ -1,33 +1,34 @@
 // Light at what each pixel sees: the photons of the map on the visible side of the triangle, through the BRDF, direct light
-// by shadow rays, and the surface's own glow. Writes radiance (cd/m2) and illuminance (lux), shading normal and depth (m along -Z).
+// by shadow rays, and the surface's own glow. Writes radiance (cd/m2) and illuminance (lux). A first dispatch looks at the
+// photons and lists the pixels that need rays for a second one: a processor that runs both sides of a branch pays for rays
+// only where there are any.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
-#include "frame.h"
+#include "resident.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = gather_group_side, local_size_y = gather_group_side) in;
 layout(push_constant, scalar) uniform Push { Frame frame; };
 
-LW_ARRAY(Lamp, lamps);
-LW_ARRAY(uint, triangle_maps);
-LW_ARRAY(SurfaceGrid, grids);
-LW_ARRAY(uint, cell_starts);
-LW_ARRAY(BvhNode, bvh_nodes);
-LW_ARRAY(uint, bvh_triangles);
-LW_ARRAY(Emitter, emitters);
-LW_ARRAY(LatticeNode, nodes);
-LW_ARRAY(uint, visible_lamps);
-layout(set = 0, binding = binding_places, scalar) readonly buffer Places { PhotonPlace records[]; }
-places[most_place_chunks];
-layout(set = 0, binding = binding_fluxes, scalar) readonly buffer Fluxes { uint records[]; }
-fluxes[most_flux_chunks];
-layout(set = 0, binding = binding_directions, scalar) readonly buffer Directions { uint records[]; }
-directions[most_flux_chunks];
+layout(set = 0, binding = binding_lights, scalar) readonly buffer Lights { Light lights[]; };
+layout(set = 0, binding = binding_lamp_powers) uniform textureBuffer lamp_powers;
+layout(set = 0, binding = binding_emitters, scalar) readonly buffer Emitters { Emitter emitters[]; };
+layout(set = 0, binding = binding_grids) uniform utextureBuffer grids;
+layout(set = 0, binding = binding_cell_starts) uniform utextureBuffer cell_starts;
+layout(set = 0, binding = binding_places) uniform utextureBuffer places[most_chunks];
+layout(set = 0, binding = binding_fluxes) uniform utextureBuffer fluxes[most_chunks];
+layout(set = 0, binding = binding_directions) uniform utextureBuffer directions[most_chunks];
+layout(set = 0, binding = binding_coverage) uniform utextureBuffer coverage;
+layout(set = 0, binding = binding_cell_light) uniform utextureBuffer light_of_cells;
+layout(set = 0, binding = binding_cell_lamps) uniform utextureBuffer lamps_of_cells;
+layout(set = 0, binding = binding_bvh_nodes) uniform utextureBuffer bvh_nodes;
+layout(set = 0, binding = binding_bvh_triangles) uniform utextureBuffer bvh_triangles;
 
 layout(set = 1, binding = binding_visibility) uniform utexture2D visibility;
 layout(set = 1, binding = binding_radiance, scalar) buffer Radiance { vec4 radiance_illuminance[]; };
-layout(set = 1, binding = binding_normal_depth, scalar) writeonly buffer NormalDepth { vec4 normal_depth[]; };
+layout(set = 1, binding = binding_ray_lists, scalar) buffer RayLists { RayPixels ray_lists[]; };
+layout(set = 1, binding = binding_ray_pixels, scalar) buffer ListedPixels { uint listed_pixels[]; };
 
 #define max_radius frame.max_radius
 #define neighbours frame.neighbours
@@ -36,42 +37,78 @@ layout(set = 1, binding = binding_normal_depth, scalar) writeonly buffer NormalD
 #define scene_size frame.scene_size
 #define shadow_rays frame.shadow_rays
 #define inverse_irradiance_scale frame.inverse_irradiance_scale
-#define light_count uint(lamps.length())
-#define bvh_node_count uint(bvh_nodes.length())
+#define light_count uint(lights.length())
+#define bvh_node_count (uint(textureSize(bvh_nodes)) / 2u)
 
 // Constant indices only: the arrays of buffers need no dynamic indexing, and one chunk costs no branch.
+#define LW_RECORD(ARRAY, i)                                                                                    \
+    if (chunks == 1u) return texelFetch(ARRAY[0], int(i));                                                     \
+    int within = int(i & ((1u << chunk_shift) - 1u));                                                          \
+    uint chunk = i >> chunk_shift;                                                                             \
+    if (chunks > 3u && chunk == 3u) return texelFetch(ARRAY[3], within);                                       \
+    if (chunks > 2u && chunk == 2u) return texelFetch(ARRAY[2], within);                                       \
+    return chunk == 1u ? texelFetch(ARRAY[1], within) : texelFetch(ARRAY[0], within);
+uvec4 place_record(uint i) { LW_RECORD(places, i) }
+uvec4 flux_record(uint i) { LW_RECORD(fluxes, i) }
+uvec4 direction_record(uint i) { LW_RECORD(directions, i) }
+
 PhotonPlace photon_place(uint i) {
-    uint chunk = place_chunks == 1u ? 0u : i >> place_shift;
-    if (place_chunks > 1u) i &= (1u << place_shift) - 1u;
-    if (place_chunks > 1u && chunk == 1u) return places[1].records[i];
-    if (place_chunks > 2u && chunk == 2u) return places[2].records[i];
-    if (place_chunks > 3u && chunk == 3u) return places[3].records[i];
-    return places[0].records[i];
+    uvec4 record = place_record(i);
+    return PhotonPlace(record.x, record.y);
+}
+uint photon_flux(uint i) { return flux_record(i).x; }
+uint photon_direction(uint i) { return direction_record(i).x; }
+
+SurfaceGrid grid_at(uint map) {
+    int first = int(map * surface_grid_texels);
+    uvec4 t[surface_grid_texels];
+    for (int i = 0; i < int(surface_grid_texels); ++i) t[i] = texelFetch(grids, first + i);
+    SurfaceGrid grid;
+    grid.origin = uintBitsToFloat(t[0].xyz);
+    grid.cell_size = uintBitsToFloat(t[0].w);
+    grid.u_axis = uintBitsToFloat(t[1].xyz);
+    grid.columns = t[1].w;
+    grid.v_axis = uintBitsToFloat(t[2].xyz);
+    grid.rows = t[2].w;
+    grid.normal = uintBitsToFloat(t[3].xyz);
+    grid.first_cell = t[3].w;
+    grid.quantum = uintBitsToFloat(t[4].xyz);
+    grid.h_origin = uintBitsToFloat(t[4].w);
+    grid.radius = uintBitsToFloat(t[5].x);
+    grid.lattice.low = uintBitsToFloat(t[5].yz);
+    grid.lattice.step = uintBitsToFloat(uvec2(t[5].w, t[6].x));
+    grid.lattice.columns = t[6].y;
+    grid.lattice.rows = t[6].z;
+    grid.lattice.first_node = t[6].w;
+    return grid;
 }
 
-uint photon_flux(uint i) {
-    uint chunk = flux_chunks == 1u ? 0u : i >> flux_shift;
-    if (flux_chunks > 1u) i &= (1u << flux_shift) - 1u;
-    if (flux_chunks > 1u && chunk == 1u) return fluxes[1].records[i];
-    return fluxes[0].records[i];
+BvhNode bvh_node_at(uint i) {
+    uvec4 low = texelFetch(bvh_nodes, int(2u * i));
+    uvec4 high = texelFetch(bvh_nodes, int(2u * i + 1u));
+    return BvhNode(uintBitsToFloat(low.xyz), low.w, uintBitsToFloat(high.xyz), high.w);
 }
 
-uint photon_direction(uint i) {
-    uint chunk = flux_chunks == 1u ? 0u : i >> flux_shift;
-    if (flux_chunks > 1u) i &= (1u << flux_shift) - 1u;
-    if (flux_chunks > 1u && chunk == 1u) return directions[1].records[i];
-    return directions[0].records[i];
+uint bvh_triangle_at(uint i) { return texelFetch(bvh_triangles, int(i)).x; }
+
+uint map_of(uint triangle, bool front) {
+    uvec4 record = texelFetch(triangles, int(triangle));
+    return front ? record.x : record.y;
 }
 
-vec3 light_weight(uint light) { return lamps[light].weight; }
+uint cell_start(uint cell) { return texelFetch(cell_starts, int(cell)).x; }
 
-uint node_coverage(uint node) { return nodes[node].coverage; }
+uint node_coverage(uint node) { return texelFetch(coverage, int(node)).x; }
 
-uint node_irradiance(uint node) { return nodes[node].irradiance; }
+uvec4 cell_light(uint cell) { return texelFetch(light_of_cells, int(cell)); }
 
-float lamp_factor(uint light) { return lamps[light].factor; }
+uint cell_lamps(uint word) { return texelFetch(lamps_of_cells, int(word)).x; }
 
-Light light_at(uint i) { return lamps[i].light; }
+vec3 light_weight(uint light) { return texelFetch(lamp_powers, int(2u * light)).xyz; }
+
+vec3 lamp_factor(uint light) { return texelFetch(lamp_powers, int(2u * light + 1u)).xyz; }
+
+Light light_at(uint i) { return lights[i]; }
 
 #include "surface.glsl"
 #include "bsdf.glsl"
@@ -80,24 +117,39 @@ Light light_at(uint i) { return lamps[i].light; }
 #include "direct.glsl"
 #include "shade.glsl"
 
-void store(uint pixel, vec4 light, vec4 geometry) {
-    vec4 before = frame.sample_index == 0u ? vec4(0.0f) : radiance_illuminance[pixel];
-    radiance_illuminance[pixel] = before + light * frame.sample_weight;
-    if (frame.sample_index == 0u) normal_depth[pixel] = geometry;
+void list_pixel(uint pixel, uint word) {
+    uint place = atomicAdd(ray_lists[word].count, 1u);
+    if (place % (gather_group_side * gather_group_side) == 0u) atomicAdd(ray_lists[word].groups_x, 1u);
+    listed_pixels[word * frame.width * frame.height + place] = pixel;
+}
+
+/// The pixel of this invocation, or one beyond the picture.
+uint pixel_to_shade() {
+    uint pixels = frame.width * frame.height;
+    if (stage == stage_rays) {
+        uint place = gl_WorkGroupID.x * gather_group_side * gather_group_side + gl_LocalInvocationIndex;
+        return place < ray_lists[frame.ray_word].count ? listed_pixels[frame.ray_word * pixels + place] : pixels;
+    }
+    uvec2 xy = gl_GlobalInvocationID.xy;
+    return xy.x < frame.width && xy.y < frame.height ? xy.y * frame.width + xy.x : pixels;
 }
 
 void main() {
-    uvec2 xy = gl_GlobalInvocationID.xy;
-    if (xy.x >= frame.width || xy.y >= frame.height) return;
-    uint pixel = xy.y * frame.width + xy.x;
-    uvec4 visible = texelFetch(visibility, ivec2(xy), 0);
-    if (visible.x >= frame.triangle_limit) {
-        store(pixel, vec4(0.0f), vec4(0.0f));
-        return;
+    uint pixel = pixel_to_shade();
+    if (pixel >= frame.width * frame.height) return;
+    uvec4 visible = texelFetch(visibility, ivec2(pixel % frame.width, pixel / frame.width), 0);
+    Gathered light = no_light();
+    if (visible.x < frame.triangle_limit) {
+        Seen seen = see(visible.x, uintBitsToFloat(visible.yz), frame.camera_position);
+        if (stage == stage_rays) {
+            add_rays(seen, frame.ray_word, hash_uint(pixel + hash_uint(frame.sample_index)), light);
+        } else {
+            light = without_rays(seen);
+            for (uint word = 0u; (has_direct || has_mirrors) && word < ray_words(light_count); ++word)
+                if (needs_rays(seen, word)) list_pixel(pixel, word);
+        }
     }
-    uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
-    Shaded seen = shade(visible.x, uintBitsToFloat(visible.yz), frame.camera_position, seed);
-    float illuminance = dot(seen.light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
-    store(pixel, vec4(seen.light.radiance, illuminance),
-          vec4(seen.normal, dot(frame.camera_position - seen.position, frame.camera_back)));
+    vec4 sum = vec4(light.radiance, dot(light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f))) * frame.sample_weight;
+    if (stage == stage_rays || frame.sample_index > 0u) sum += radiance_illuminance[pixel];
+    radiance_illuminance[pixel] = sum;
 }

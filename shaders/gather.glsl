@@ -1,24 +1,36 @@
 // Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
-// The including scope provides the arrays grids, cell_starts, the functions photon_place, photon_flux,
-// photon_direction, light_weight and the constants gather_mode, neighbours, heap_size, max_radius,
-// inverse_flux_scale, inverse_irradiance_scale,
-// has_directions, has_coverage and the functions node_coverage, node_irradiance. Needs photon_map.h and bsdf.glsl.
+// The including scope provides the functions grid_at, cell_start, photon_place, photon_flux, photon_direction,
+// light_weight, node_coverage, cell_light and the constants gather_mode, neighbours, heap_size, max_radius,
+// inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage. Needs photon_map.h and bsdf.glsl.
 
-/// Adds photon `i`, weighted by `kernel` (1/m2).
-void add_photon(uint i, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
+Gathered no_light() LW_MEMBER {
+    Gathered nothing;
+    nothing.radiance = vec3(0.0f);
+    nothing.irradiance = vec3(0.0f);
+    nothing.radius = max_radius;
+    nothing.photons = 0.0f;
+    return nothing;
+}
+
+/// Adds photon `i` of the record `place`, weighted by `kernel`, to sums that add_up() completes.
+void add_photon(uint i, PhotonPlace place, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
-    vec3 flux = unpack_rgb9e5(photon_flux(i)) * light_weight(light_of(photon_place(i))) * (kernel * inverse_flux_scale);
+    vec3 flux = unpack_rgb9e5(photon_flux(i)) * light_weight(light_of(place)) * kernel;
     sum.irradiance += flux;
-    if (!has_directions) {
-        sum.radiance += flux * eval_brdf(s, n_shading, to_view, n_shading, true);
-        return;
-    }
+    if (!has_directions) return;
     s.roughness = max(s.roughness, narrowest_gathered_roughness);
     vec3 to_light = unpack_direction(photon_direction(i));
     float cos_shading = dot(n_shading, to_light);
     float cos_geometric = max(dot(n_geometric, to_light), 0.05f);
     float tilt = clamp(cos_shading / cos_geometric, 0.0f, 2.0f);  // irradiance on the shading normal's plane
     sum.radiance += flux * tilt * eval_brdf(s, n_shading, to_view, to_light, false);
+}
+
+/// Brings sums of flux to irradiance and radiance; `peak` (1/m2) is what all kernels have in common.
+void add_up(float peak, Surface s, vec3 n_shading, vec3 to_view, LW_INOUT(Gathered) sum) LW_MEMBER {
+    sum.irradiance *= peak * inverse_flux_scale;
+    sum.radiance *= peak * inverse_flux_scale;
+    if (!has_directions) sum.radiance = sum.irradiance * eval_brdf(s, n_shading, to_view, n_shading, true);
 }
 
 ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
@@ -29,7 +41,7 @@ ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
 uvec2 row_span(SurfaceGrid grid, int x0, int x1, int y) LW_MEMBER {
     if (y < 0 || y >= int(grid.rows) || x1 < 0 || x0 >= int(grid.columns)) return uvec2(0u, 0u);
     uint row = grid.first_cell + uint(y) * grid.columns;
-    return uvec2(cell_starts[row + uint(max(x0, 0))], cell_starts[row + uint(min(x1, int(grid.columns) - 1)) + 1u]);
+    return uvec2(cell_start(row + uint(max(x0, 0))), cell_start(row + uint(min(x1, int(grid.columns) - 1)) + 1u));
 }
 
 /// True when the window of `ring` cells around `cell` covers the grid.
@@ -95,9 +107,9 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
     float radius_squared = max(full ? heap_distance[0] : grid.radius * grid.radius, 1e-12f * grid.radius * grid.radius);
     sum.radius = sqrt(radius_squared);
     sum.photons = float(full ? count - 1u : count);
-    float kernel = 1.0f / (lw_pi * radius_squared);
     for (uint j = full ? 1u : 0u; j < count; ++j)
-        add_photon(heap_photon[j], kernel, s, n_geometric, n_shading, to_view, sum);
+        add_photon(heap_photon[j], photon_place(heap_photon[j]), 1.0f, s, n_geometric, n_shading, to_view, sum);
+    add_up(1.0f / (lw_pi * radius_squared), s, n_shading, to_view, sum);
     return sum;
 }
 
@@ -134,7 +146,7 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
     sum.photons = 0.0f;
     sum.radius = bandwidth_from_counts(grid, local);
     float r2 = sum.radius * sum.radius;
-    float peak = 2.0f / (lw_pi * r2);
+    float inverse_r2 = 1.0f / r2;
     int y1 = int(floor((local.y + sum.radius) / grid.cell_size));
     for (int y = int(floor((local.y - sum.radius) / grid.cell_size)); y <= y1; ++y) {
         float below = float(y) * grid.cell_size - local.y;
@@ -144,13 +156,15 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
         int x1 = int(floor((local.x + half_width) / grid.cell_size));
         uvec2 span = row_span(grid, x0, x1, y);
         for (uint i = span.x; i < span.y; ++i) {
-            vec3 d = place_in_grid(photon_place(i), grid) - local;
+            PhotonPlace place = photon_place(i);
+            vec3 d = place_in_grid(place, grid) - local;
             float d2 = dot(d, d);
             if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
             sum.photons += 1.0f;
-            add_photon(i, peak * (1.0f - d2 / r2), s, n_geometric, n_shading, to_view, sum);
+            add_photon(i, place, 1.0f - d2 * inverse_r2, s, n_geometric, n_shading, to_view, sum);
         }
     }
+    add_up(2.0f / (lw_pi * r2), s, n_shading, to_view, sum);
     return sum;
 }
 
@@ -168,51 +182,60 @@ vec3 position_in_grid(SurfaceGrid grid, vec3 position) LW_MEMBER {
     return vec3(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
 }
 
-/// The part of the kernel of `radius` around a point that lies on surface light can reach; between the lattice's nodes.
-float coverage_at(SurfaceGrid grid, vec3 local, float radius) LW_MEMBER {
-    SurfaceLattice lattice = grid.lattice;
-    vec2 f = vec2(0.0f);
-    uint node = cell_node(lattice, local, f);
-    float fraction = radius / grid.radius;
-    float below = mix(unpack_coverage(node_coverage(node), fraction), unpack_coverage(node_coverage(node + 1u), fraction), f.x);
-    node += lattice.columns;
-    float above = mix(unpack_coverage(node_coverage(node), fraction), unpack_coverage(node_coverage(node + 1u), fraction), f.x);
-    return max(mix(below, above, f.y), least_coverage);
+/// Where a point lies on a map.
+struct MapPlace {
+    uint map;  // or no_map, then nothing else holds
+    SurfaceGrid grid;
+    vec3 local;  // u, v, h in the frame of the grid, m
+    uint cell;   // the lower left node of the cell of the lattice
+    vec2 f;      // where in the cell
+};
+
+MapPlace place_on(uint map, vec3 position) LW_MEMBER {
+    MapPlace at;
+    at.map = map;
+    at.grid = grid_at(map == no_map ? 0u : map);  // anything, but there
+    at.local = position_in_grid(at.grid, position);
+    at.cell = cell_node(at.grid.lattice, at.local, at.f);
+    return at;
 }
 
-/// The irradiance computed ahead at the nodes, all lamps at their present power; light from all sides alike for the BRDF.
-Gathered gather_cached(SurfaceGrid grid, vec3 local, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
-    vec2 f = vec2(0.0f);
-    uint node = cell_node(grid.lattice, local, f);
-    uint above = node + grid.lattice.columns;
-    vec3 low = mix(unpack_rgb9e5(node_irradiance(node)), unpack_rgb9e5(node_irradiance(node + 1u)), f.x);
-    vec3 high = mix(unpack_rgb9e5(node_irradiance(above)), unpack_rgb9e5(node_irradiance(above + 1u)), f.x);
+/// The part of the kernel of `radius` around a place that lies on surface light can reach; between the lattice's nodes.
+float coverage_at(MapPlace at, float radius) LW_MEMBER {
+    float fraction = radius / at.grid.radius;
+    uint node = at.cell;
+    uint above = node + at.grid.lattice.columns;
+    float low = mix(unpack_coverage(node_coverage(node), fraction), unpack_coverage(node_coverage(node + 1u), fraction), at.f.x);
+    float high = mix(unpack_coverage(node_coverage(above), fraction), unpack_coverage(node_coverage(above + 1u), fraction), at.f.x);
+    return max(mix(low, high, at.f.y), least_coverage);
+}
+
+/// The irradiance computed ahead at the corners of the cell, all lamps at their present power; light from all sides alike
+/// for the BRDF.
+Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
+    uvec4 corners = cell_light(at.cell);
+    vec3 low = mix(unpack_rgb9e5(corners.x), unpack_rgb9e5(corners.y), at.f.x);
+    vec3 high = mix(unpack_rgb9e5(corners.z), unpack_rgb9e5(corners.w), at.f.x);
     Gathered sum;
-    sum.irradiance = mix(low, high, f.y) * inverse_irradiance_scale;
-    sum.radiance = sum.irradiance * albedo_towards(s, max(dot(n_shading, to_view), 0.0f)) / lw_pi;
+    sum.irradiance = mix(low, high, at.f.y) * inverse_irradiance_scale;
+    if (has_directions)
+        sum.radiance = sum.irradiance * albedo_towards(s, max(dot(n_shading, to_view), 0.0f)) / lw_pi;
+    else
+        sum.radiance = sum.irradiance * eval_brdf(s, n_shading, to_view, n_shading, true);
     sum.radius = 0.0f;
     sum.photons = 0.0f;
     return sum;
 }
 
-/// Reflected radiance and irradiance at surface `s` from the photons of `map`; zero when the map is no_map.
+/// Reflected radiance and irradiance at surface `s` from the photons around a place; zero when it is on no map.
 /// n_geometric and n_shading are turned to the viewer.
-Gathered gather_photons(uint map, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
-    if (map == no_map) {
-        Gathered nothing;
-        nothing.radiance = vec3(0.0f);
-        nothing.irradiance = vec3(0.0f);
-        nothing.radius = max_radius;
-        nothing.photons = 0.0f;
-        return nothing;
-    }
-    SurfaceGrid grid = grids[map];
-    vec3 local = position_in_grid(grid, s.position);
-    if (gather_mode == gather_mode_cached) return gather_cached(grid, local, s, n_shading, to_view);
-    if (gather_mode == gather_mode_exact) return gather_exact(grid, local, s, n_geometric, n_shading, to_view);
-    Gathered sum = gather_smooth(grid, local, s, n_geometric, n_shading, to_view);
+Gathered gather_photons(MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
+    if (at.map == no_map) return no_light();
+    if (gather_mode == gather_mode_cached) return gather_cached(at, s, n_shading, to_view);
+    if (gather_mode == gather_mode_exact) return gather_exact(at.grid, at.local, s, n_geometric, n_shading, to_view);
+    Gathered sum = gather_smooth(at.grid, at.local, s, n_geometric, n_shading, to_view);
     if (!has_coverage) return sum;
-    float covered = coverage_at(grid, local, sum.radius);
+    float covered = coverage_at(at, sum.radius);
     sum.radiance /= covered;
     sum.irradiance /= covered;
     return sum;

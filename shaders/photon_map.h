@@ -40,6 +40,8 @@ struct SurfaceGrid {
     SurfaceLattice lattice;
 };
 
+LW_CONST uint surface_grid_texels = 7u;  // of 16 bytes
+
 /// Coverage of the kernels of radius R/4, R/2, 3R/4 and R of a map with largest radius R, one byte each.
 LW_CONST uint coverage_levels = 4u;
 LW_CONST float coverage_unit = 160.0f;  // the byte of coverage 1
@@ -54,17 +56,16 @@ LW_INLINE uint visibility_words(uint lamps) { return (lamps + lamps_per_word - 1
 LW_INLINE uint visibility_word(uint lamp) { return lamp / lamps_per_word; }
 LW_INLINE uint visibility_shift(uint lamp) { return 4u * (lamp % lamps_per_word); }
 
-/// The part of a lamp that a node sees itself, from its four bits.
-LW_INLINE float visible_part(uint bits) {
-    uint own = (bits >> own_shift) & 3u;
-    return own == some_visible ? 1.0f : own == some_hidden ? 0.0f : 0.5f;
-}
-
-/// What a frame reads of a node.
-struct LatticeNode {
-    uint coverage;    // see unpack_coverage()
-    uint irradiance;  // RGB9E5 of lux x scale, all lamps at their present power
-};
+/// What a cell of a lattice knows of a lamp, eight bits: what its corners' surroundings see (some_visible, some_hidden;
+/// no bits: not known), whether the light of its corners holds the lamp, and which corners see some of it.
+LW_CONST uint in_cell_light = 4u;
+LW_CONST uint corner_sees = 16u;  // << 0 to 3: corner (0, 0), (1, 0), (0, 1), (1, 1)
+LW_CONST uint cell_lamps_per_word = 4u;
+LW_INLINE uint cell_lamp_words(uint lamps) { return (lamps + cell_lamps_per_word - 1u) / cell_lamps_per_word; }
+/// Words that rays are traced for: one even without lamps, for mirrors.
+LW_INLINE uint ray_words(uint lamps) { return max(cell_lamp_words(lamps), 1u); }
+LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
+LW_INLINE uint cell_lamp_shift(uint lamp) { return 8u * (lamp % cell_lamps_per_word); }
 
 /// Where a referenced photon lies in its map, and which light it came from (8 bytes).
 struct PhotonPlace {
@@ -138,7 +139,7 @@ LW_INLINE vec3 unpack_direction(uint bits) {
 
 #ifdef __cplusplus
 static_assert(sizeof(SurfaceLattice) == 28);
-static_assert(sizeof(SurfaceGrid) == 112 && offsetof(SurfaceGrid, lattice) == 84 && sizeof(PhotonPlace) == 8);
+static_assert(sizeof(SurfaceGrid) == 16 * surface_grid_texels && offsetof(SurfaceGrid, lattice) == 84 && sizeof(PhotonPlace) == 8);
 }  // namespace lw
 #endif
 #endif

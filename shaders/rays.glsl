@@ -1,14 +1,13 @@
 // Rays through the hierarchy of shaders/bvh.h: shadow rays and the nearest surface. One text for C++ and GLSL; the including
-// scope provides what surface.glsl and bsdf.glsl need, the arrays bvh_nodes, bvh_triangles and the constants
+// scope provides what surface.glsl and bsdf.glsl need, the functions bvh_node_at, bvh_triangle_at and the constants
 // bvh_node_count, has_alpha, has_transmission. Nothing heavy inside the traversal: some devices run both sides of a branch.
 
 /// True when a triangle is crossed by origin + t direction, 0 < t < far (Moeller & Trumbore 1997, edges included); sets
 /// `hit` to the weights of its second and third corner and t.
 bool crosses_triangle(uint triangle, vec3 origin, vec3 direction, float far, LW_INOUT(vec3) hit) LW_MEMBER {
-    uvec3 corner = triangles[triangle];
-    vec3 a = positions[corner.x];
-    vec3 ab = positions[corner.y] - a;
-    vec3 ac = positions[corner.z] - a;
+    vec3 a = corner_position(triangle, 0u);
+    vec3 ab = corner_position(triangle, 1u) - a;
+    vec3 ac = corner_position(triangle, 2u) - a;
     vec3 p = cross(direction, ac);
     float determinant = dot(ab, p);
     if (determinant == 0.0f) return false;
@@ -24,9 +23,9 @@ bool crosses_triangle(uint triangle, vec3 origin, vec3 direction, float far, LW_
 
 /// Fraction of light that a crossed triangle lets pass straight through.
 vec3 passed_by(uint triangle, vec2 barycentrics, vec3 direction) LW_MEMBER {
-    uint flags = materials[objects[triangle_objects[triangle]].material].flags;
+    uint flags = material_of(triangle).flags;
     Surface s = surface_at(triangle, barycentrics);
-    float cutoff = materials[objects[triangle_objects[triangle]].material].alpha_cutoff;
+    float cutoff = material_of(triangle).alpha_cutoff;
     if ((flags & material_alpha_mask) != 0u && s.alpha < cutoff) return vec3(1.0f);
     vec3 passed = vec3(0.0f);
     if ((flags & material_thin) != 0u) passed = thin_transmittance(s, abs(dot(s.normal, direction)));
@@ -46,11 +45,11 @@ uint next_crossed(vec3 origin, vec3 direction, vec3 inverse, float far, LW_INOUT
                   LW_INOUT(vec3) hit) LW_MEMBER {
     while (at.first < at.last || at.node < bvh_node_count) {
         if (at.first < at.last) {
-            uint entry = bvh_triangles[at.first++];
+            uint entry = bvh_triangle_at(at.first++);
             if (crosses_triangle(entry & ~bvh_see_through, origin, direction, far, hit)) return entry;
             continue;
         }
-        BvhNode n = bvh_nodes[at.node];
+        BvhNode n = bvh_node_at(at.node);
         vec3 t0 = (n.low - origin) * inverse;
         vec3 t1 = (n.high - origin) * inverse;
         vec3 near3 = min(t0, t1);

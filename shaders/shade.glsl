@@ -1,47 +1,72 @@
 // What a view ray brings back from the surface it meets, mirrors followed. One text for C++ and GLSL; needs gather.glsl,
-// rays.glsl, direct.glsl, the array triangle_maps, the function lamp_factor and the constants has_direct, has_mirrors.
+// rays.glsl, direct.glsl, the functions map_of, lamp_factor and the constants has_direct, has_mirrors.
 
-struct Shaded {
-    Gathered light;  // radiance towards the eye; illuminance, bandwidth and photons of the first surface
-    vec3 position;   // of the first surface
-    vec3 normal;     // its shading normal, turned to the eye
+/// A surface as the eye sees it.
+struct Seen {
+    Surface surface;
+    MapPlace at;
+    vec3 to_eye;
+    vec3 n_geometric;  // both turned to the eye
+    vec3 n_shading;
+    bool front;
 };
+
+Seen see(uint triangle, vec2 barycentrics, vec3 eye) LW_MEMBER {
+    Seen seen;
+    seen.surface = surface_at(triangle, barycentrics);
+    seen.to_eye = normalize(eye - seen.surface.position);
+    seen.front = dot(seen.surface.geometric_normal, seen.to_eye) >= 0.0f;
+    seen.n_geometric = seen.front ? seen.surface.geometric_normal : -seen.surface.geometric_normal;
+    seen.n_shading = seen.front ? seen.surface.normal : -seen.surface.normal;
+    seen.at = place_on(map_of(triangle, seen.front), seen.surface.position);
+    return seen;
+}
 
 /// What a surface shows by itself: its glow, or its colour when unlit.
 vec3 own_radiance(Surface s, bool front) LW_MEMBER {
     if ((s.flags & material_unlit) != 0u) return s.base_color;
     if (!front && (s.flags & material_double_sided) == 0u) return vec3(0.0f);
-    return s.emissive * (s.light >= 0 ? lamp_factor(uint(s.light)) : 1.0f);
+    return s.emissive * (s.light >= 0 ? lamp_factor(uint(s.light)) : vec3(1.0f));
 }
 
-/// The surface at (triangle, barycentrics) seen from `eye`.
-Shaded shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed) LW_MEMBER {
-    Shaded result;
+/// Photons and glow: all there is to see, but for add_rays() where needs_rays() says so.
+Gathered without_rays(Seen seen) LW_MEMBER {
+    Gathered light = gather_photons(seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye);
+    light.radiance += own_radiance(seen.surface, seen.front);
+    return light;
+}
+
+/// True when lamps of a word have to be added to what the photons say, or a mirror to be followed.
+bool needs_rays(Seen seen, uint word) LW_MEMBER {
+    uint bits = 0u;
+    return (has_mirrors && is_purely_specular(seen.surface)) || (has_direct && lamps_to_add(seen.at, word, bits) != 0u);
+}
+
+/// Adds the lamps of one word, and with the first word what is seen in mirrors beside the lamps' light.
+void add_rays(Seen seen, uint word, uint seed, LW_INOUT(Gathered) light) LW_MEMBER {
     vec3 reflected = vec3(1.0f);
     for (uint mirrors = 0u; mirrors <= (has_mirrors ? most_mirrors : 0u); ++mirrors) {
-        Surface s = surface_at(triangle, barycentrics);
-        vec3 to_eye = normalize(eye - s.position);
-        bool front = dot(s.geometric_normal, to_eye) >= 0.0f;
-        vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal;
-        vec3 n_shading = front ? s.normal : -s.normal;
-        uint map = triangle_maps[2u * triangle + (front ? 0u : 1u)];
-        Gathered light = gather_photons(map, s, n_geometric, n_shading, to_eye);
-        if (has_direct) add_direct(map, s, n_geometric, n_shading, to_eye, seed, light);
-        light.radiance += own_radiance(s, front);
-        if (mirrors == 0u) {
-            result.light = light;
-            result.position = s.position;
-            result.normal = n_shading;
-        } else {
-            result.light.radiance += reflected * light.radiance;
-        }
-        if (!has_mirrors || !is_purely_specular(s)) break;
-        vec3 direction = reflect(-to_eye, n_shading);
-        if (dot(direction, n_geometric) <= 0.0f) break;
-        reflected *= s.base_color + (vec3(1.0f) - s.base_color) * schlick_weight(dot(n_shading, to_eye));
-        triangle = nearest_surface(s.position + n_geometric * ray_epsilon, direction, scene_size, barycentrics);
-        if (triangle == no_map) break;
-        eye = s.position;
+        Surface s = seen.surface;
+        Gathered shown = no_light();
+        if (mirrors > 0u && word == 0u) shown = without_rays(seen);
+        if (has_direct) add_direct(seen.at, word, s, seen.n_geometric, seen.n_shading, seen.to_eye, seed, shown);
+        light.radiance += reflected * shown.radiance;
+        if (mirrors == 0u) light.irradiance += shown.irradiance;
+        if (!has_mirrors || !is_purely_specular(s)) return;
+        vec3 direction = reflect(-seen.to_eye, seen.n_shading);
+        if (dot(direction, seen.n_geometric) <= 0.0f) return;
+        reflected *= s.base_color + (vec3(1.0f) - s.base_color) * schlick_weight(dot(seen.n_shading, seen.to_eye));
+        vec2 barycentrics = vec2(0.0f);
+        uint triangle = nearest_surface(s.position + seen.n_geometric * ray_epsilon, direction, scene_size, barycentrics);
+        if (triangle == no_map) return;
+        seen = see(triangle, barycentrics, s.position);
     }
-    return result;
+}
+
+/// All light towards `eye` from (triangle, barycentrics); illuminance, bandwidth and photons are of that place.
+Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed) LW_MEMBER {
+    Seen seen = see(triangle, barycentrics, eye);
+    Gathered light = without_rays(seen);
+    for (uint word = 0u; word < ray_words(light_count); ++word) add_rays(seen, word, seed, light);
+    return light;
 }

@@ -1,6 +1,7 @@
 // What lies at (triangle, barycentrics): position, normals and material parameters.
-// One text for C++ and GLSL. The including scope provides the arrays positions, normals, uv0, uv1, colors, tangents,
-// triangles, triangle_objects, objects, materials, textures, texels and the constants has_uv0, has_uv1, has_colors,
+// One text for C++ and GLSL. The including scope provides the functions corner_position, corner_normal, corner_uv0,
+// corner_uv1, corner_color, corner_tangent (triangle, 0 to 2), material_of, light_of_surface (triangle), texel_at, the array
+// textures and the constants has_uv0, has_uv1, has_colors,
 // has_tangents, has_textures (any), has_metallic_roughness_textures, has_emissive_textures, has_transmission_textures,
 // has_alpha, has_transmission.
 
@@ -17,8 +18,7 @@ int wrap_texel(int i, int size, uint mode) LW_MEMBER {
 vec4 fetch_texel(Texture t, int x, int y) LW_MEMBER {
     int column = wrap_texel(x, int(t.width), t.wrap_s);
     int row = wrap_texel(y, int(t.height), t.wrap_t);
-    uint bits = texels[t.first_texel + uint(row) * t.width + uint(column)];
-    vec4 c = vec4(float(bits & 255u), float((bits >> 8) & 255u), float((bits >> 16) & 255u), float(bits >> 24)) / 255.0f;
+    vec4 c = texel_at(t.first_texel + uint(row) * t.width + uint(column));
     if (t.srgb != 0u) c = vec4(srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z), c.w);
     return c;
 }
@@ -46,22 +46,20 @@ vec4 sample_texture(TextureSlot slot, vec2 first_uv, vec2 second_uv) LW_MEMBER {
 
 /// barycentrics are the weights of the second and third vertex.
 Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
-    uvec3 corner = triangles[triangle];
     float b0 = 1.0f - barycentrics.x - barycentrics.y;
     float b1 = barycentrics.x;
     float b2 = barycentrics.y;
-    vec3 p0 = positions[corner.x];
-    vec3 p1 = positions[corner.y];
-    vec3 p2 = positions[corner.z];
-    Object object = objects[triangle_objects[triangle]];
-    Material m = materials[object.material];
+    vec3 p0 = corner_position(triangle, 0u);
+    vec3 p1 = corner_position(triangle, 1u);
+    vec3 p2 = corner_position(triangle, 2u);
+    Material m = material_of(triangle);
 
     Surface s;
     s.position = b0 * p0 + b1 * p1 + b2 * p2;
     vec3 cross_product = cross(p1 - p0, p2 - p0);
     float cross_length = length(cross_product);
     s.geometric_normal = cross_length > 0.0f ? cross_product / cross_length : vec3(0.0f, 1.0f, 0.0f);
-    vec3 n = b0 * normals[corner.x] + b1 * normals[corner.y] + b2 * normals[corner.z];
+    vec3 n = b0 * corner_normal(triangle, 0u) + b1 * corner_normal(triangle, 1u) + b2 * corner_normal(triangle, 2u);
     float n_length = length(n);
     s.normal = n_length > 1e-6f ? n / n_length : s.geometric_normal;
 
@@ -75,17 +73,17 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
     s.ior = m.ior;
     s.transmission = m.transmission;
     s.flags = m.flags;
-    s.light = object.light;
+    s.light = light_of_surface(triangle);
     if (has_colors) {
-        vec4 c = b0 * colors[corner.x] + b1 * colors[corner.y] + b2 * colors[corner.z];
+        vec4 c = b0 * corner_color(triangle, 0u) + b1 * corner_color(triangle, 1u) + b2 * corner_color(triangle, 2u);
         s.base_color *= vec3(c.x, c.y, c.z);
         s.alpha *= c.w;
     }
     if (has_textures) {
         vec2 first_uv = vec2(0.0f);
         vec2 second_uv = vec2(0.0f);
-        if (has_uv0) first_uv = b0 * uv0[corner.x] + b1 * uv0[corner.y] + b2 * uv0[corner.z];
-        if (has_uv1) second_uv = b0 * uv1[corner.x] + b1 * uv1[corner.y] + b2 * uv1[corner.z];
+        if (has_uv0) first_uv = b0 * corner_uv0(triangle, 0u) + b1 * corner_uv0(triangle, 1u) + b2 * corner_uv0(triangle, 2u);
+        if (has_uv1) second_uv = b0 * corner_uv1(triangle, 0u) + b1 * corner_uv1(triangle, 1u) + b2 * corner_uv1(triangle, 2u);
         if (m.base_color_texture.texture >= 0) {
             vec4 c = sample_texture(m.base_color_texture, first_uv, second_uv);
             s.base_color *= vec3(c.x, c.y, c.z);
@@ -105,7 +103,7 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
         if (has_tangents && m.normal_texture.texture >= 0) {
             vec4 c = sample_texture(m.normal_texture, first_uv, second_uv);
             vec3 local = vec3((c.x * 2.0f - 1.0f) * m.normal_scale, (c.y * 2.0f - 1.0f) * m.normal_scale, c.z * 2.0f - 1.0f);
-            vec4 tangent4 = b0 * tangents[corner.x] + b1 * tangents[corner.y] + b2 * tangents[corner.z];
+            vec4 tangent4 = b0 * corner_tangent(triangle, 0u) + b1 * corner_tangent(triangle, 1u) + b2 * corner_tangent(triangle, 2u);
             vec3 tangent = vec3(tangent4.x, tangent4.y, tangent4.z);
             tangent = tangent - s.normal * dot(s.normal, tangent);
             float tangent_length = length(tangent);
@@ -122,7 +120,7 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
 
 /// True where a view ray passes: cut-out texels, and glass, which is looked straight through.
 bool is_see_through(uint triangle, vec2 barycentrics) LW_MEMBER {
-    Material m = materials[objects[triangle_objects[triangle]].material];
+    Material m = material_of(triangle);
     bool cut_out = has_alpha && (m.flags & (material_alpha_mask | material_alpha_blend)) != 0u;
     if (!cut_out && !has_transmission) return false;
     Surface s = surface_at(triangle, barycentrics);

@@ -2,7 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "frame.h"
+#extension GL_EXT_samplerless_texture_functions : require
+#include "resident.glsl"
 #include "surface.glsl"
 
 layout(location = 0) in vec2 barycentrics;

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "gather.comp.spv.h"
+#include "gpu/commands.h"
 
 namespace lw {
 namespace {
@@ -24,15 +25,36 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
         throw Error("gather: exact search takes at most " + std::to_string(PhotonEstimator::heap_size) + " neighbours");
     const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), picture.descriptors().layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(Frame));
-    pipeline_ = make_compute_pipeline(device, *layout_, gather_comp, with_mode(resident.constants(), settings));
+    ShaderConstants constants = with_mode(resident.constants(), settings);
+    const bool has_rays = constants[constant_has_direct] || constants[constant_has_mirrors];
+    for (uint stage = stage_photons; stage <= (has_rays ? stage_rays : stage_photons); ++stage) {
+        constants[constant_stage] = stage;
+        stages_.push_back(make_compute_pipeline(device, *layout_, gather_comp, constants));
+    }
 }
 
 void GatherPass::record(vk::CommandBuffer commands, const Frame& frame) const {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+    using Stage = vk::PipelineStageFlagBits2;
     const vk::DescriptorSet sets[] = {resident_->descriptors().handle(), picture_->descriptors().handle()};
+    const uint words = ray_words(uint(resident_->scene().lights.size()));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
     commands.pushConstants<Frame>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, frame);
-    commands.dispatch((frame.width + 7) / 8, (frame.height + 7) / 8, 1);
+    if (stages_.size() > 1) {
+        const std::vector<RayPixels> empty(words, {0, 1, 1, 0});
+        commands.updateBuffer<RayPixels>(picture_->ray_lists().handle(), 0, empty);
+        stage_barrier(commands, Stage::eTransfer, Stage::eComputeShader);
+    }
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *stages_[stage_photons]);
+    const auto groups = [](uint pixels) { return (pixels + gather_group_side - 1) / gather_group_side; };
+    commands.dispatch(groups(frame.width), groups(frame.height), 1);
+    if (stages_.size() == 1) return;
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *stages_[stage_rays]);
+    for (uint word = 0; word < words; ++word) {
+        stage_barrier(commands, Stage::eComputeShader, Stage::eComputeShader | Stage::eDrawIndirect);
+        commands.pushConstants(*layout_, vk::ShaderStageFlagBits::eCompute, offsetof(Frame, ray_word), sizeof word,
+                               &word);
+        commands.dispatchIndirect(picture_->ray_lists().handle(), word * sizeof(RayPixels));
+    }
 }
 
 }  // namespace lw

@@ -1,4 +1,4 @@
-// Light at what each pixel sees, from the photon map: radiance, illuminance, shading normal and depth.
+// Light at what each pixel sees, from the photon map: radiance and illuminance.
 #pragma once
 #include "gather/picture.h"
 #include "gather/resident.h"
@@ -17,7 +17,7 @@ class GatherPass {
     const Resident* resident_;
     const Picture* picture_;
     vk::UniquePipelineLayout layout_;
-    vk::UniquePipeline pipeline_;
+    std::vector<vk::UniquePipeline> stages_;  // photons, and rays where the scene has lamps or mirrors to follow
 };
 
 }  // namespace lw

@@ -7,9 +7,13 @@
 namespace lw {
 namespace {
 
-std::array<Binding, 4> picture_bindings() {
-    return {Binding{binding_visibility, vk::DescriptorType::eSampledImage}, Binding{binding_radiance},
-            Binding{binding_normal_depth}, Binding{binding_screen}};
+std::array<Binding, 6> picture_bindings() {
+    return {Binding{binding_visibility, vk::DescriptorType::eSampledImage},
+            Binding{binding_radiance},
+            Binding{binding_ray_lists},
+            Binding{binding_ray_pixels},
+            Binding{binding_screen},
+            Binding{binding_light, vk::DescriptorType::eUniformTexelBuffer}};
 }
 
 Buffer plane(const Device& device, vk::Extent2D size, size_t pixel_bytes, const std::string& what) {
@@ -23,15 +27,19 @@ Buffer plane(const Device& device, vk::Extent2D size, size_t pixel_bytes, const 
 
 }  // namespace
 
-Picture::Picture(const Device& device, const Target& visibility)
+Picture::Picture(const Device& device, const Target& visibility, uint ray_words)
     : radiance_(plane(device, visibility.size(), 16, "radiance")),
-      normal_depth_(plane(device, visibility.size(), 16, "normals")),
+      ray_lists_(device, ray_words * sizeof(RayPixels), "lists of pixels"),
+      ray_pixels_(plane(device, visibility.size(), ray_words * sizeof(uint), "listed pixels")),
       screen_(plane(device, visibility.size(), 4, "screen")),
       descriptors_(device, picture_bindings()) {
     descriptors_.set_target(binding_visibility, visibility);
     descriptors_.set_buffer(binding_radiance, radiance_);
-    descriptors_.set_buffer(binding_normal_depth, normal_depth_);
+    descriptors_.set_buffer(binding_ray_lists, ray_lists_);
+    descriptors_.set_buffer(binding_ray_pixels, ray_pixels_);
     descriptors_.set_buffer(binding_screen, screen_);
+    light_ = view_as_texels(device, radiance_, vk::Format::eR32G32B32A32Sfloat);
+    descriptors_.set_texels(binding_light, *light_);
 }
 
 }  // namespace lw

@@ -7,14 +7,16 @@ namespace lw {
 class Picture {
   public:
     /// Throws Error when a plane of this size is beyond the device's buffers.
-    Picture(const Device& device, const Target& visibility);
+    /// ray_words: ray_words(lamps), what rays are traced for.
+    Picture(const Device& device, const Target& visibility, uint ray_words);
     const DescriptorSet& descriptors() const { return descriptors_; }
-    const Buffer& radiance() const { return radiance_; }          // vec4: RGB cd/m2, illuminance lx
-    const Buffer& normal_depth() const { return normal_depth_; }  // vec4: shading normal, depth m
-    const Buffer& screen() const { return screen_; }              // RGBA8
+    const Buffer& radiance() const { return radiance_; }    // vec4: RGB cd/m2, illuminance lx
+    const Buffer& ray_lists() const { return ray_lists_; }  // RayPixels per word of lamps
+    const Buffer& screen() const { return screen_; }        // RGBA8
 
   private:
-    Buffer radiance_, normal_depth_, screen_;
+    Buffer radiance_, ray_lists_, ray_pixels_, screen_;
+    vk::UniqueBufferView light_;
     DescriptorSet descriptors_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "gpu/commands.h"
 #include "image/tonemap.h"
+#include "scene/surface.h"
 
 namespace lw {
 namespace {
@@ -29,6 +30,13 @@ PassTimes median_times(const std::vector<PassTimes>& frames) {
         gather.push_back(t.gather_ms);
     }
     return {median(visibility), median(gather), 0};
+}
+
+/// Shading normal turned to the camera, and metres along its axis.
+vec4 normal_and_depth(const Surface& s, const Camera& camera) {
+    const vec3 to_camera = camera.position - s.position;
+    const bool front = dot(s.geometric_normal, to_camera) >= 0;
+    return vec4(front ? s.normal : -s.normal, dot(to_camera, camera.rotation[2]));
 }
 
 }  // namespace
@@ -56,7 +64,7 @@ Renderer::Renderer(const Device& device, const Resident& resident, uint width, u
       width_(width),
       height_(height),
       visibility_(device, resident, {width, height}),
-      picture_(device, visibility_.texture()),
+      picture_(device, visibility_.texture(), ray_words(uint(resident.scene().lights.size()))),
       tonemap_(device, resident, picture_) {}
 
 void Renderer::choose_gather(GatherSettings settings) {
@@ -73,7 +81,7 @@ Rendering Renderer::render(const Camera& camera, const RenderSettings& settings)
     for (uint i = 0; i < std::max(1u, settings.frames); ++i) frames.push_back(render_frame(camera, settings));
     Rendering result;
     result.times = median_times(frames);
-    result.image = read_image(visibility_.read_samples());
+    result.image = read_image(camera, visibility_.read_samples());
     result.exposure_ev = settings.exposure_ev ? *settings.exposure_ev : auto_exposure_ev(result.image);
     std::vector<double> tonemap_ms;
     for (size_t i = 0; i < frames.size(); ++i) tonemap_ms.push_back(render_screen(result.exposure_ev));
@@ -127,11 +135,15 @@ double Renderer::render_screen(float exposure_ev) const {
     return times.intervals_ms()[0];
 }
 
-Image Renderer::read_image(const std::vector<VisibleSample>& visible) const {
+Image Renderer::read_image(const Camera& camera, const std::vector<VisibleSample>& visible) const {
     Image image{int(width_), int(height_), {}};
     const size_t count = image.pixel_count();
     const auto light = read_back<vec4>(*device_, picture_.radiance(), count);
-    const auto geometry = read_back<vec4>(*device_, picture_.normal_depth(), count);
+    std::vector<vec4> geometry(count, vec4(0));
+    const SurfaceReader surfaces(resident_->scene());
+    for (size_t i = 0; i < count; ++i)
+        if (visible[i].triangle != no_triangle)
+            geometry[i] = normal_and_depth(surfaces.surface_at(visible[i].triangle, visible[i].barycentrics), camera);
     const auto add_plane = [&](const char* name, const auto& value) {
         std::vector<float>& plane = image.add(name);
         for (size_t i = 0; i < count; ++i) plane[i] = value(i);

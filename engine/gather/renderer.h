@@ -45,7 +45,7 @@ class Renderer {
     void choose_gather(GatherSettings settings);
     PassTimes render_frame(const Camera& camera, const RenderSettings& settings) const;
     double render_screen(float exposure_ev) const;
-    Image read_image(const std::vector<VisibleSample>& visible) const;
+    Image read_image(const Camera& camera, const std::vector<VisibleSample>& visible) const;
     Rgb8Image read_screen() const;
 
     const Device* device_;

@@ -3,34 +3,32 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstring>
 
 #include "base/error.h"
-#include "maps/irradiance.h"
 
 namespace lw {
 namespace {
 
 uint descriptor_count(uint binding) {
-    if (binding == binding_places) return most_place_chunks;
-    return binding == binding_fluxes || binding == binding_directions ? most_flux_chunks : 1u;
+    return binding == binding_places || binding == binding_fluxes || binding == binding_directions ? most_chunks : 1u;
 }
 
 std::vector<Binding> scene_bindings() {
     const vk::ShaderStageFlags compute = vk::ShaderStageFlagBits::eCompute;
     const auto all = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | compute;
     std::vector<Binding> bindings;
-    for (uint i = 0; i < scene_binding_count; ++i)
-        bindings.push_back({i, vk::DescriptorType::eStorageBuffer, descriptor_count(i),
-                            i <= binding_texels ? vk::ShaderStageFlags(all) : compute});
+    for (uint i = 0; i < scene_binding_count; ++i) {
+        const bool of_surfaces =
+            i <= binding_texels || i == binding_looks || i == binding_materials || i == binding_textures;
+        const auto type =
+            i < texel_binding_count ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
+        bindings.push_back({i, type, descriptor_count(i), of_surfaces ? vk::ShaderStageFlags(all) : compute});
+    }
     return bindings;
 }
 
 std::string mebibytes(uint64_t bytes) { return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB"; }
-
-/// log2 of the records that fit in one buffer.
-uint chunk_shift(uint64_t range, uint64_t record_bytes) {
-    return std::min(31u, uint(std::bit_width(range / record_bytes)) - 1u);
-}
 
 uint chunk_count(uint64_t records, uint shift) {
     return uint(std::max<uint64_t>(1, (records + (1ull << shift) - 1) >> shift));
@@ -61,10 +59,10 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
 }
 
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map) {
-    const uint32_t needed = scene_binding_count - 3 + most_place_chunks + 2 * most_flux_chunks + 3;
-    const uint32_t has = device.limits().maxPerStageDescriptorStorageBuffers;
+    const uint32_t needed = texel_binding_count + 3 * (most_chunks - 1) + 1;
+    const uint32_t has = device.limits().maxPerStageDescriptorSampledImages;
     if (has < needed)
-        throw Error(device.name() + ": binds " + std::to_string(has) + " storage buffers, " + std::to_string(needed) +
+        throw Error(device.name() + ": binds " + std::to_string(has) + " textures, " + std::to_string(needed) +
                     " are needed");
     const uint64_t bytes = total_bytes(scene, map);
     if (bytes > device.memory_size())
@@ -93,8 +91,9 @@ std::vector<Resident::Cluster> find_clusters(const Scene& scene) {
 Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh,
                    ResidentSettings settings)
     : device_(&device),
+      scene_(&scene),
       map_(&map),
-      buffer_range_(settings.buffer_range ? settings.buffer_range : device.limits().maxStorageBufferRange),
+      most_texels_(settings.texels ? settings.texels : device.limits().maxTexelBufferElements),
       triangle_count_(uint(scene.triangles.size())),
       clusters_(find_clusters(scene)),
       max_radius_(map.settings.radius),
@@ -107,6 +106,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     if (!map.triangle_maps.empty() && map.triangle_maps.size() != 2 * scene.triangles.size())
         throw Error(scene.path.string() + ": the photon map belongs to another scene");
     check_device(device, scene, map);
+    if (map.has_coverage()) cells_.emplace(scene, map);
     choose_constants(scene, map, bvh);
     constants_[constant_has_direct] = !bvh.nodes.empty() && !map.settings.direct_in_photons;
     constants_[constant_has_visible_lamps] = map.has_visible_lamps();
@@ -114,10 +114,10 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
-    for (const Light& light : scene.lights) lamp_states_.push_back({light, light.intensity, 1});
-    lamps_ = Buffer(device, std::max<size_t>(1, lamp_states_.size()) * sizeof(Lamp), "lights");
-    descriptors_.set_buffer(binding_lamps, lamps_);
-    set_light_factors(std::vector<float>(lamp_states_.size(), 1.0f));
+    lamp_powers_ = Buffer(device, std::max<size_t>(1, scene.lights.size()) * sizeof(LampPower), "powers of lamps");
+    views_.push_back(view_as_texels(device, lamp_powers_, vk::Format::eR32G32B32A32Sfloat));
+    descriptors_.set_texels(binding_lamp_powers, *views_.back());
+    set_light_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
 }
 
 void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh) {
@@ -135,99 +135,158 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     constants_[constant_has_metallic_roughness_textures] = any_texture(scene, &Material::metallic_roughness_texture);
     constants_[constant_has_emissive_textures] = any_texture(scene, &Material::emissive_texture);
     constants_[constant_has_transmission_textures] = any_texture(scene, &Material::transmission_texture);
-    constants_[constant_place_shift] = chunk_shift(buffer_range_, sizeof(PhotonPlace));
-    constants_[constant_place_chunks] = chunk_count(map.places.size(), constants_[constant_place_shift]);
-    constants_[constant_flux_shift] = chunk_shift(buffer_range_, sizeof(uint));
-    constants_[constant_flux_chunks] = chunk_count(map.fluxes.size(), constants_[constant_flux_shift]);
+    constants_[constant_chunk_shift] = std::min(27u, uint(std::bit_width(most_texels_)) - 1u);
+    constants_[constant_chunks] = chunk_count(map.places.size(), constants_[constant_chunk_shift]);
     constants_[constant_heap_size] = 1;
 }
 
 void Resident::upload_scene(const Scene& scene) {
-    upload_array<vec3>(binding_positions, scene.positions, "positions");
-    upload_array<vec3>(binding_normals, scene.normals, "normals");
-    upload_array<vec2>(binding_uv0, scene.uv0, "texture coordinates");
-    upload_array<vec2>(binding_uv1, scene.uv1, "second texture coordinates");
-    upload_array<vec4>(binding_colors, scene.colors, "vertex colours");
-    upload_array<vec4>(binding_tangents, scene.tangents, "tangents");
-    upload_array<uvec3>(binding_triangles, scene.triangles, "triangles");
-    upload_array<uint>(binding_triangle_objects, scene.triangle_objects, "objects of triangles");
-    upload_array<Object>(binding_objects, scene.objects, "objects");
-    upload_array<Material>(binding_materials, scene.materials, "materials");
-    upload_array<Texture>(binding_textures, scene.textures, "textures");
-    upload_array<uint>(binding_texels, scene.texels, "texels");
+    upload_corners(scene);
+    upload_texels<uint>(binding_texels, vk::Format::eR8G8B8A8Unorm, scene.texels, "texels");
+    std::vector<uvec4> looks(look_texels * scene.materials.size());
+    for (size_t m = 0; m < scene.materials.size(); ++m)
+        std::memcpy(&looks[look_texels * m], &scene.materials[m], look_texels * sizeof(uvec4));
+    upload_texels<uvec4>(binding_looks, vk::Format::eR32G32B32A32Uint, looks, "materials");
+    upload_records<Material>(binding_materials, scene.materials, "materials");
+    upload_records<Texture>(binding_textures, scene.textures, "textures");
+}
+
+/// The values of the vertices at the corners of all triangles.
+template <class T>
+std::vector<T> at_corners(const Scene& scene, const std::vector<T>& values) {
+    std::vector<T> corners;
+    if (values.empty()) return corners;
+    corners.reserve(3 * scene.triangles.size());
+    for (const uvec3& t : scene.triangles)
+        for (int c = 0; c < 3; ++c) corners.push_back(values[t[c]]);
+    return corners;
+}
+
+void Resident::upload_corners(const Scene& scene) {
+    std::vector<vec4> corners;
+    corners.reserve(6 * scene.triangles.size());
+    for (const uvec3& t : scene.triangles)
+        for (int c = 0; c < 3; ++c) {
+            const vec2 uv = scene.uv0.empty() ? vec2(0) : scene.uv0[t[c]];
+            corners.emplace_back(scene.positions[t[c]], uv.x);
+            corners.emplace_back(scene.normals[t[c]], uv.y);
+        }
+    upload_texels<vec4>(binding_corners, vk::Format::eR32G32B32A32Sfloat, corners, "corners");
+    upload_texels<vec2>(binding_uv1, vk::Format::eR32G32Sfloat, at_corners(scene, scene.uv1),
+                        "second texture coordinates");
+    upload_texels<vec4>(binding_colors, vk::Format::eR32G32B32A32Sfloat, at_corners(scene, scene.colors),
+                        "vertex colours");
+    upload_texels<vec4>(binding_tangents, vk::Format::eR32G32B32A32Sfloat, at_corners(scene, scene.tangents),
+                        "tangents");
+    std::vector<uvec4> triangles;
+    triangles.reserve(scene.triangles.size());
+    for (size_t t = 0; t < scene.triangles.size(); ++t) {
+        const Object& object = scene.objects[scene.triangle_objects[t]];
+        const auto map = [&](size_t side) {
+            return map_->triangle_maps.empty() ? no_map : map_->triangle_maps[2 * t + side];
+        };
+        triangles.emplace_back(map(0), map(1), object.material, uint(object.light));
+    }
+    upload_texels<uvec4>(binding_triangles, vk::Format::eR32G32B32A32Uint, triangles, "triangles");
 }
 
 void Resident::upload_map(const PhotonMap& map) {
-    std::vector<uint> unlit;
-    if (map.triangle_maps.empty()) unlit.assign(2 * size_t(triangle_count_), no_map);
-    upload_array<uint>(binding_triangle_maps, map.triangle_maps.empty() ? unlit : map.triangle_maps,
-                       "maps of triangles");
-    upload_array<SurfaceGrid>(binding_grids, map.grids, "grids");
-    upload_array<uint>(binding_cell_starts, map.cell_starts, "cells");
-    upload_chunks<PhotonPlace>(binding_places, map.places, constants_[constant_place_shift], "photon places");
-    upload_chunks<uint>(binding_fluxes, map.fluxes, constants_[constant_flux_shift], "photon fluxes");
-    const std::vector<LatticeNode> nodes(map.coverage.size());
-    upload_array<LatticeNode>(binding_nodes, nodes, "lattice nodes");
-    nodes_ = buffers_.size() - 1;
-    upload_array<uint>(binding_visible_lamps, map.visible_lamps, "lamp visibility");
-    upload_chunks<uint>(binding_directions, map.directions, constants_[constant_flux_shift], "photon directions");
+    constexpr auto word = vk::Format::eR32Uint, two = vk::Format::eR32G32Uint, four = vk::Format::eR32G32B32A32Uint;
+    upload_texels<SurfaceGrid>(binding_grids, four, map.grids, "grids");
+    upload_texels<uint>(binding_cell_starts, word, map.cell_starts, "cells");
+    upload_chunks<PhotonPlace>(binding_places, two, map.places, "photon places");
+    upload_chunks<uint>(binding_fluxes, word, map.fluxes, "photon fluxes");
+    upload_chunks<uint>(binding_directions, word, map.directions, "photon directions");
+    upload_texels<uint>(binding_coverage, word, map.coverage, "coverage");
+    upload_texels<uint>(binding_cell_lamps, word, cells_ ? cells_->lamps() : std::vector<uint>(), "lamps of cells");
+    upload_texels<uvec4>(binding_cell_light, four, std::vector<uvec4>(map.coverage.size()), "light of cells");
+    cell_light_ = buffers_.size() - 1;
 }
 
 void Resident::upload_direct(const Scene& scene, const Bvh& bvh) {
-    upload_array<Emitter>(binding_emitters, scene.emitters, "emitters");
-    upload_array<BvhNode>(binding_bvh_nodes, bvh.nodes, "nodes of the shadow rays' hierarchy");
-    upload_array<uint>(binding_bvh_triangles, bvh.triangles, "triangles of the shadow rays' hierarchy");
+    upload_records<Light>(binding_lights, scene.lights, "lights");
+    upload_records<Emitter>(binding_emitters, scene.emitters, "emitters");
+    upload_texels<BvhNode>(binding_bvh_nodes, vk::Format::eR32G32B32A32Uint, bvh.nodes,
+                           "nodes of the shadow rays' hierarchy");
+    upload_texels<uint>(binding_bvh_triangles, vk::Format::eR32Uint, bvh.triangles,
+                        "triangles of the shadow rays' hierarchy");
 }
 
 template <class T>
-void Resident::upload_array(uint binding, std::span<const T> values, const std::string& what) {
-    if (values.size_bytes() > device_->limits().maxStorageBufferRange)
-        throw Error(device_->name() + ": " + std::to_string(values.size()) + " " + what + " take " +
-                    mebibytes(values.size_bytes()) + "; one buffer holds at most " +
-                    std::to_string(device_->limits().maxStorageBufferRange / sizeof(T)));
+void Resident::upload_records(uint binding, std::span<const T> values, const std::string& what) {
+    const uint64_t most = device_->limits().maxStorageBufferRange / sizeof(T);
+    if (values.size() > most)
+        throw Error(device_->name() + ": " + std::to_string(values.size()) + " " + what +
+                    ", one buffer holds at most " + std::to_string(most));
     buffers_.push_back(upload(*device_, values, what));
     descriptors_.set_buffer(binding, buffers_.back());
 }
 
+uint texel_bytes(vk::Format format) {
+    switch (format) {
+        case vk::Format::eR32G32Uint:
+        case vk::Format::eR32G32Sfloat:
+            return 8;
+        case vk::Format::eR32G32B32A32Uint:
+        case vk::Format::eR32G32B32A32Sfloat:
+            return 16;
+        default:
+            return 4;
+    }
+}
+
 template <class T>
-void Resident::upload_chunks(uint binding, std::span<const T> values, uint shift, const std::string& what) {
-    const uint most = descriptor_count(binding);
+void Resident::upload_texels(uint binding, vk::Format format, std::span<const T> values, const std::string& what) {
+    if (values.size_bytes() / texel_bytes(format) > device_->limits().maxTexelBufferElements)
+        throw Error(device_->name() + ": " + std::to_string(values.size()) + " " + what + " take " +
+                    mebibytes(values.size_bytes()) + "; one buffer holds at most " +
+                    mebibytes(uint64_t(device_->limits().maxTexelBufferElements) * texel_bytes(format)));
+    buffers_.push_back(upload(*device_, values, what));
+    views_.push_back(view_as_texels(*device_, buffers_.back(), format));
+    descriptors_.set_texels(binding, *views_.back());
+}
+
+template <class T>
+void Resident::upload_chunks(uint binding, vk::Format format, std::span<const T> values, const std::string& what) {
+    const uint shift = constants_[constant_chunk_shift], count = chunk_count(values.size(), shift);
     const size_t chunk = size_t(1) << shift;
-    const uint count = chunk_count(values.size(), shift);
-    if (count > most)
+    if (count > most_chunks)
         throw Error(device_->name() + ": " + std::to_string(values.size()) + " " + what + " do not fit, at most " +
-                    std::to_string(most * chunk) + "; bake fewer photons");
+                    std::to_string(most_chunks * chunk) + "; bake fewer photons");
     for (uint i = 0; i < count; ++i) {
         const size_t first = std::min(values.size(), i * chunk);
         buffers_.push_back(upload(*device_, values.subspan(first, std::min(chunk, values.size() - first)), what));
-        descriptors_.set_buffer(binding, buffers_.back(), i);
+        views_.push_back(view_as_texels(*device_, buffers_.back(), format));
+        descriptors_.set_texels(binding, *views_.back(), i);
     }
-    for (uint i = count; i < most; ++i) descriptors_.set_buffer(binding, buffers_.back(), i);  // never read
+    for (uint i = count; i < most_chunks; ++i) descriptors_.set_texels(binding, *views_.back(), i);  // never read
 }
 
 void Resident::set_light_factors(std::span<const float> factors) {
-    assert(factors.size() == lamp_states_.size());
-    for (size_t i = 0; i < factors.size(); ++i) {
-        lamp_states_[i].weight = lamp_states_[i].light.intensity * factors[i];
-        lamp_states_[i].factor = factors[i];
-    }
-    write_nodes();
-    write_bytes(*device_, lamps_, lamp_states_.data(), lamp_states_.size() * sizeof(Lamp));
+    set_light_factors(std::vector<vec3>(factors.begin(), factors.end()));
 }
 
-void Resident::write_nodes() {
-    if (!map_->has_coverage()) return;
+void Resident::set_light_factors(std::span<const vec3> factors) {
+    assert(factors.size() == scene_->lights.size());
+    std::vector<LampPower> powers;
     std::vector<vec3> weights;
-    for (const Lamp& lamp : lamp_states_) weights.push_back(lamp.weight);
-    std::vector<uint> summed;
-    inverse_irradiance_scale_ = 1 / sum_irradiance(*map_, weights, summed);
-    std::vector<LatticeNode> nodes(summed.size());
-    for (size_t n = 0; n < nodes.size(); ++n) nodes[n] = {map_->coverage[n], summed[n]};
-    write_bytes(*device_, buffers_[nodes_], nodes.data(), nodes.size() * sizeof(LatticeNode));
+    for (size_t i = 0; i < factors.size(); ++i) {
+        weights.push_back(scene_->lights[i].intensity * factors[i]);
+        powers.push_back({vec4(weights[i], 0), vec4(factors[i], 0)});
+    }
+    write_cells(weights);
+    write_bytes(*device_, lamp_powers_, powers.data(), powers.size() * sizeof(LampPower));
+}
+
+void Resident::write_cells(std::span<const vec3> weights) {
+    if (!cells_) return;
+    std::vector<uvec4> light;
+    inverse_irradiance_scale_ = 1 / cells_->sum(weights, light);
+    write_bytes(*device_, buffers_[cell_light_], light.data(), light.size() * sizeof(uvec4));
 }
 
 uint64_t Resident::bytes() const {
-    uint64_t sum = lamps_.size();
+    uint64_t sum = lamp_powers_.size();
     for (const Buffer& buffer : buffers_) sum += buffer.size();
     return sum;
 }

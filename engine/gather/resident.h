@@ -1,11 +1,13 @@
 // A scene and its photon map in GPU memory, as descriptor set 0 of all passes (shaders/frame.h).
-// The arrays are uploaded as they are; photon records beyond maxStorageBufferRange are split over several buffers.
+// The map's arrays are uploaded as they are, those of the vertices per corner; photon records beyond the device's texel
+// buffers are split over several.
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 
 #include "gpu/pipeline.h"
-#include "maps/photon_map.h"
+#include "maps/cells.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "shaders/frame.h"
@@ -15,22 +17,24 @@ namespace lw {
 using ShaderConstants = std::array<uint32_t, constant_count>;
 
 struct ResidentSettings {
-    uint64_t buffer_range = 0;  // bytes of one storage buffer; 0: what the device allows. For tests of the splitting.
+    uint64_t texels = 0;  // most records of one buffer; 0: what the device allows. For tests of the splitting.
 };
 
 class Resident {
   public:
-    /// Uploads everything; all lights at factor 1. The map must outlive it; one without triangle_maps means no photons.
-    /// Without `bvh` no rays are traced: no shadow rays, and mirrors are black.
-    /// Throws Error saying which array does not fit, and what would.
+    /// Uploads everything; all lights at factor 1. Scene and map must outlive it; one without triangle_maps means no
+    /// photons. Without `bvh` no rays are traced: no shadow rays, and mirrors are black. Throws Error saying which
+    /// array does not fit, and what would.
     Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh = {},
              ResidentSettings settings = {});
     Resident(const Device&, const Scene&, PhotonMap&&, const Bvh& = {},
              ResidentSettings = {}) = delete;  // would not outlive it
 
-    /// Dims the lights: one factor per light of the scene, >= 0. Rewrites one small buffer.
+    /// Dims the lights: one factor per light of the scene, >= 0, or one per channel.
     void set_light_factors(std::span<const float> factors);
+    void set_light_factors(std::span<const vec3> factors);
 
+    const Scene& scene() const { return *scene_; }
     const DescriptorSet& descriptors() const { return descriptors_; }
     /// Specialization constants of the scene; gather_mode and heap_size are left to the pass.
     const ShaderConstants& constants() const { return constants_; }
@@ -51,17 +55,21 @@ class Resident {
   private:
     void choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh);
     void upload_scene(const Scene& scene);
+    void upload_corners(const Scene& scene);
     void upload_map(const PhotonMap& map);
     void upload_direct(const Scene& scene, const Bvh& bvh);
-    void write_nodes();
+    void write_cells(std::span<const vec3> weights);
     template <class T>
-    void upload_array(uint binding, std::span<const T> values, const std::string& what);
+    void upload_records(uint binding, std::span<const T> values, const std::string& what);
     template <class T>
-    void upload_chunks(uint binding, std::span<const T> values, uint shift, const std::string& what);
+    void upload_texels(uint binding, vk::Format format, std::span<const T> values, const std::string& what);
+    template <class T>
+    void upload_chunks(uint binding, vk::Format format, std::span<const T> values, const std::string& what);
 
     const Device* device_;
+    const Scene* scene_;
     const PhotonMap* map_;
-    uint64_t buffer_range_;
+    uint64_t most_texels_;
     ShaderConstants constants_{};
     uint triangle_count_;
     std::vector<Cluster> clusters_;
@@ -69,11 +77,12 @@ class Resident {
     float inverse_flux_scale_;
     float ray_epsilon_;
     float scene_size_;
-    std::vector<Lamp> lamp_states_;
     DescriptorSet descriptors_;
     std::vector<Buffer> buffers_;
-    Buffer lamps_;
-    size_t nodes_ = 0;  // index of their buffer
+    std::vector<vk::UniqueBufferView> views_;
+    Buffer lamp_powers_;
+    std::optional<CellLight> cells_;
+    size_t cell_light_ = 0;  // index of its buffer
     float inverse_irradiance_scale_ = 1;
 };
 

@@ -25,7 +25,10 @@ vk::UniqueDeviceMemory allocate(const Device& device, vk::MemoryRequirements nee
 
 vk::BufferUsageFlags usage_of(Buffer::Place place) {
     const auto copies = vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst;
-    return place == Buffer::Place::host ? copies : copies | vk::BufferUsageFlagBits::eStorageBuffer;
+    return place == Buffer::Place::host
+               ? copies
+               : copies | vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer |
+                     vk::BufferUsageFlagBits::eIndirectBuffer;
 }
 
 }  // namespace
@@ -41,6 +44,10 @@ Buffer::Buffer(const Device& device, vk::DeviceSize bytes, const std::string& wh
         throw Error(device.name() + ": no memory for " + what + ", " + std::to_string((bytes >> 20) + 1) + " MiB of " +
                     std::to_string(device.memory_size() >> 20) + " MiB: " + failure.what());
     }
+}
+
+vk::UniqueBufferView view_as_texels(const Device& device, const Buffer& buffer, vk::Format format) {
+    return device.handle().createBufferViewUnique({{}, buffer.handle(), format, 0, VK_WHOLE_SIZE});
 }
 
 void write_bytes(const Device& device, const Buffer& buffer, const void* bytes, size_t count) {

@@ -1,4 +1,4 @@
-// Storage buffers in device memory, filled and read back through a small host-visible staging buffer.
+// Storage and texel buffers in device memory, filled and read back through a small host-visible staging buffer.
 #pragma once
 #include <span>
 
@@ -6,7 +6,7 @@
 
 namespace lw {
 
-/// Owns a buffer and its memory. Device-local buffers are storage buffers that can be copied to and from.
+/// Owns a buffer and its memory. Device-local ones can be bound as storage or texel buffers and copied to and from.
 class Buffer {
   public:
     enum class Place { device, host };  // host: visible to the CPU and coherent, for staging
@@ -32,10 +32,13 @@ void write_bytes(const Device& device, const Buffer& buffer, const void* bytes, 
 /// Copies `count` bytes from the start of a device buffer; waits until done.
 void read_bytes(const Device& device, const Buffer& buffer, void* bytes, size_t count);
 
-/// A device buffer with these values; one of 16 zero bytes when there are none, so that it can be bound.
+/// The buffer as texels of this format, for texelFetch.
+vk::UniqueBufferView view_as_texels(const Device& device, const Buffer& buffer, vk::Format format);
+
+/// A device buffer with these values; one of 128 zero bytes when there are none, so that it can be bound.
 template <class T>
 Buffer upload(const Device& device, std::span<const T> values, const std::string& what) {
-    static const char nothing[16] = {};
+    static const char nothing[128] = {};
     const size_t bytes = values.size_bytes();
     Buffer buffer(device, bytes ? bytes : sizeof nothing, what);
     write_bytes(device, buffer, bytes ? static_cast<const void*>(values.data()) : nothing,

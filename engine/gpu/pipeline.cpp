@@ -50,6 +50,11 @@ void DescriptorSet::set_buffer(uint32_t binding, const Buffer& buffer, uint32_t 
     device_->handle().updateDescriptorSets(write, {});
 }
 
+void DescriptorSet::set_texels(uint32_t binding, vk::BufferView texels, uint32_t element) const {
+    const vk::WriteDescriptorSet write(set_, binding, element, vk::DescriptorType::eUniformTexelBuffer, {}, {}, texels);
+    device_->handle().updateDescriptorSets(write, {});
+}
+
 void DescriptorSet::set_target(uint32_t binding, const Target& texture) const {
     const vk::DescriptorImageInfo what({}, texture.view(), vk::ImageLayout::eShaderReadOnlyOptimal);
     const vk::WriteDescriptorSet write(set_, binding, 0, vk::DescriptorType::eSampledImage, what);

@@ -1,7 +1,7 @@
 // Density estimation and direct light on the CPU: the text of shaders/gather.glsl and direct.glsl over a PhotonMap; the
 // oracle of the gather shader.
 #pragma once
-#include "maps/irradiance.h"
+#include "maps/cells.h"
 #include "maps/photon_map.h"
 #include "scene/bvh.h"
 #include "scene/surface.h"
@@ -24,9 +24,7 @@ class PhotonEstimator : public SurfaceReader {
     PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_weights,
                     GatherSettings settings, const Bvh& bvh = no_shadows())
         : SurfaceReader(scene),
-          grids(map.grids.data()),
           triangle_maps(map.triangle_maps.data()),
-          cell_starts(map.cell_starts.data()),
           map_(map),
           weights_(light_weights),
           gather_mode(settings.mode),
@@ -35,8 +33,7 @@ class PhotonEstimator : public SurfaceReader {
           inverse_flux_scale(1.0f / map.flux_scale),
           has_directions(map.has_directions()),
           has_coverage(map.has_coverage()),
-          has_visible_lamps(map.has_visible_lamps()),
-          visible_lamps(map.visible_lamps.data()),
+          has_visible_lamps(map.has_visible_lamps() && !map.irradiance.empty()),
           lights(scene.lights.data()),
           bvh_nodes(bvh.nodes.data()),
           bvh_triangles(bvh.triangles.data()),
@@ -49,33 +46,44 @@ class PhotonEstimator : public SurfaceReader {
           has_shadow_rays(settings.shadow_rays > 0),
           has_mirrors(!bvh.nodes.empty()),
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
-        if (gather_mode == gather_mode_cached)
-            inverse_irradiance_scale = 1 / sum_irradiance(map, light_weights, summed_irradiance_);
+        if (map.irradiance.empty()) return;
+        const CellLight cells(scene, map);
+        cell_lamps_ = cells.lamps();
+        if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(light_weights, cell_light_);
     }
 
     PhotonPlace photon_place(uint i) const { return map_.places[i]; }
     uint photon_flux(uint i) const { return map_.fluxes[i]; }
     uint photon_direction(uint i) const { return map_.directions[i]; }
     vec3 light_weight(uint light) const { return weights_[light]; }
-    float lamp_factor(uint light) const {
-        const vec3 w = weights_[light], full = lights[light].intensity;
-        const int c = full.x > 0 ? 0 : full.y > 0 ? 1 : 2;
-        return full[c] > 0 ? w[c] / full[c] : 1.0f;
+    vec3 lamp_factor(uint light) const {
+        const vec3 full = lights[light].intensity;
+        vec3 factor(1);
+        for (int c = 0; c < 3; ++c)
+            if (full[c] > 0) factor[c] = weights_[light][c] / full[c];
+        return factor;
     }
     Light light_at(uint i) const { return lights[i]; }
     uint node_coverage(uint node) const { return map_.coverage[node]; }
-    uint node_irradiance(uint node) const { return summed_irradiance_[node]; }
+    uvec4 cell_light(uint cell) const { return cell_light_[cell]; }
+    uint cell_lamps(uint word) const { return cell_lamps_[word]; }
+    uint map_of(uint triangle, bool front) const { return triangle_maps[2 * triangle + (front ? 0 : 1)]; }
+    const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : no_grid_; }
+    uint cell_start(uint cell) const { return map_.cell_starts[cell]; }
+    const BvhNode& bvh_node_at(uint i) const { return bvh_nodes[i]; }
+    uint bvh_triangle_at(uint i) const { return bvh_triangles[i]; }
 
-#include "shaders/direct.glsl"
 #include "shaders/gather.glsl"
 #include "shaders/rays.glsl"
+
+#include "shaders/direct.glsl"
 
 #include "shaders/shade.glsl"
 
     /// The estimate at (triangle, barycentrics) seen from direction `to_view` (unit). `seed` picks the points on mesh
     /// lamps.
     Gathered estimate(uint triangle, vec2 barycentrics, vec3 to_view, uint seed = 0) const {
-        return shade(triangle, barycentrics, surface_at(triangle, barycentrics).position + to_view, seed).light;
+        return shade(triangle, barycentrics, surface_at(triangle, barycentrics).position + to_view, seed);
     }
 
   protected:
@@ -84,9 +92,7 @@ class PhotonEstimator : public SurfaceReader {
         return none;
     }
 
-    const SurfaceGrid* grids;
     const uint* triangle_maps;
-    const uint* cell_starts;
     const PhotonMap& map_;
     const std::vector<vec3>& weights_;
     uint gather_mode;
@@ -95,7 +101,6 @@ class PhotonEstimator : public SurfaceReader {
     float inverse_flux_scale;
     bool has_directions, has_coverage;
     bool has_visible_lamps;
-    const uint* visible_lamps;
     const Light* lights;
     const BvhNode* bvh_nodes;
     const uint* bvh_triangles;
@@ -107,7 +112,9 @@ class PhotonEstimator : public SurfaceReader {
     static constexpr bool has_mesh_lamps = true;
     bool has_mirrors;
     bool has_direct;
-    std::vector<uint> summed_irradiance_;  // cached mode only
+    std::vector<uvec4> cell_light_;  // cached mode only
+    std::vector<uint> cell_lamps_;
+    static constexpr SurfaceGrid no_grid_{};
     float inverse_irradiance_scale = 1;
 };
 

@@ -111,7 +111,8 @@ class NodeLight : public PhotonEstimator {
         const vec2 uv = lattice.low + vec2(float(i % lattice.columns), float(i / lattice.columns)) * lattice.step;
         const vec3 local(uv, position_in_grid(grid, at).z);
         const float radius = bandwidth_from_counts(grid, local), r2 = radius * radius;
-        const float share = 2.0f / (lw_pi * r2) * inverse_flux_scale / coverage_at(grid, local, radius);
+        const float share = 2.0f / (lw_pi * r2) * inverse_flux_scale /
+                            std::max(unpack_coverage(map_.coverage[node], radius / grid.radius), least_coverage);
         const ivec2 low = cell_of(local - vec3(radius, radius, 0), grid),
                     high = cell_of(local + vec3(radius, radius, 0), grid);
         for (int y = low.y; y <= high.y; ++y) {
@@ -196,25 +197,6 @@ std::vector<uint> find_irradiance(const Scene& scene, const RayCaster& caster, c
     parallel_for(
         packed.size(), [&](size_t i) { packed[i] = pack_rgb9e5(light[i] * scale); }, 4096);
     return packed;
-}
-
-float sum_irradiance(const PhotonMap& map, std::span<const vec3> weights, std::vector<uint>& sum) {
-    const size_t nodes = map.coverage.size();
-    float total = 0;
-    for (const vec3& w : weights) total += largest(w);
-    const float scale = total > 0 ? 1 / total : 1.0f;
-    sum.resize(nodes);
-    parallel_for(
-        nodes,
-        [&](size_t n) {
-            vec3 e(0);
-            for (size_t lamp = 0; lamp < weights.size(); ++lamp)
-                if (const uint record = map.irradiance[lamp * nodes + n])
-                    e += unpack_rgb9e5(record) * (weights[lamp] * scale);
-            sum[n] = pack_rgb9e5(e);
-        },
-        4096);
-    return scale * map.irradiance_scale;
 }
 
 }  // namespace lw

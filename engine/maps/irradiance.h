@@ -1,7 +1,6 @@
 // Irradiance at the lattice nodes, per lamp at unit power: geometry and lamps stand still and powers are weights, so a
 // frame needs one look-up per pixel.
 #pragma once
-#include <span>
 #include <vector>
 
 #include "maps/lattice.h"
@@ -15,8 +14,5 @@ namespace lw {
 /// brightest fits.
 std::vector<uint> find_irradiance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
                                   const std::vector<NodePoint>& nodes, float& scale);
-
-/// The lamps' layers as one, RGB9E5 of lux x the returned scale; weights: RGB power of each lamp.
-float sum_irradiance(const PhotonMap& map, std::span<const vec3> weights, std::vector<uint>& sum);
 
 }  // namespace lw

@@ -66,7 +66,8 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
             vec2 nearest;
             const vec2 weights = nearest_barycentrics(corners[0] - at, corners[1] - at, corners[2] - at, nearest);
             const float squared = dot(nearest, nearest);
-            const float distance2 = squared < 1e-6f * dot(lattice.step, lattice.step) ? 0 : squared;  // over the surface
+            const float distance2 =
+                squared < 1e-6f * dot(lattice.step, lattice.step) ? 0 : squared;  // over the surface
             const float height =
                 locals[0].z + weights.x * (locals[1].z - locals[0].z) + weights.y * (locals[2].z - locals[0].z);
             if (distance2 < point.distance2 || (distance2 == point.distance2 && height > point.height))

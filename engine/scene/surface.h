@@ -28,6 +28,19 @@ class SurfaceReader {
           has_tangents(!scene.tangents.empty()),
           has_textures(!scene.textures.empty()) {}
 
+    vec3 corner_position(uint triangle, uint c) const { return positions[triangles[triangle][int(c)]]; }
+    vec3 corner_normal(uint triangle, uint c) const { return normals[triangles[triangle][int(c)]]; }
+    vec2 corner_uv0(uint triangle, uint c) const { return uv0[triangles[triangle][int(c)]]; }
+    vec2 corner_uv1(uint triangle, uint c) const { return uv1[triangles[triangle][int(c)]]; }
+    vec4 corner_color(uint triangle, uint c) const { return colors[triangles[triangle][int(c)]]; }
+    vec4 corner_tangent(uint triangle, uint c) const { return tangents[triangles[triangle][int(c)]]; }
+    const Material& material_of(uint triangle) const { return materials[objects[triangle_objects[triangle]].material]; }
+    int light_of_surface(uint triangle) const { return objects[triangle_objects[triangle]].light; }
+    vec4 texel_at(uint i) const {
+        const uint bits = texels[i];
+        return vec4(uvec4(bits, bits >> 8, bits >> 16, bits >> 24) & 255u) / 255.0f;
+    }
+
 #include "shaders/bsdf.glsl"
 #include "shaders/surface.glsl"
 

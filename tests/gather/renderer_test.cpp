@@ -161,10 +161,10 @@ TEST(Renderer, MakesTheSamePictureFromSplitPhotonArrays) {
     const Device device({"", true});
     const RenderSettings settings{{0, 50}, {}, 1, 1};
     const Rendering whole = picture_of(device, two_walls(), even_photons(), settings);
-    const Rendering split = picture_of(device, two_walls(), even_photons(), settings, {131072});  // 3 and 2 chunks
+    const Rendering split = picture_of(device, two_walls(), even_photons(), settings, {16384});  // 3 chunks
     for (const Channel& channel : whole.image.channels)
         EXPECT_EQ(channel.values, split.image.find(channel.name)->values);
-    EXPECT_THROW(picture_of(device, two_walls(), even_photons(), settings, {65536}), Error);
+    EXPECT_THROW(picture_of(device, two_walls(), even_photons(), settings, {8192}), Error);
     EXPECT_EQ(device.validation_messages(), std::vector<std::string>{});
 }
 

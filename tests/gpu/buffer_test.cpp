@@ -35,7 +35,7 @@ TEST(Buffer, ReturnsWhatWasUploadedBeyondOneStagingBuffer) {
 TEST(Buffer, OfNothingIsSmallAndZero) {
     const Device device({"", true});
     const Buffer buffer = upload<float>(device, {}, "nothing");
-    EXPECT_EQ(buffer.size(), 16u);
+    EXPECT_EQ(buffer.size(), 128u);
     EXPECT_EQ(read_back<float>(device, buffer, 4), std::vector<float>(4, 0.0f));
 }
 

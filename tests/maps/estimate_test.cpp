@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "benchmark/rooms.h"
 #include "maps/build.h"
 #include "maps/packing.h"
 #include "photons/shoot.h"
@@ -137,8 +138,8 @@ TEST(Estimate, ExactModeEqualsBruteForce) {
         const uint map = baked.map.triangle_maps[2 * p.triangle + p.side()];
         const Surface s = estimator.surface_at(p.triangle, {0.31f, 0.27f});
         const float side = p.side() ? -1.0f : 1.0f;
-        const Gathered got =
-            estimator.gather_photons(map, s, s.geometric_normal * side, s.normal * side, s.normal * side);
+        const Gathered got = estimator.gather_photons(estimator.place_on(map, s.position), s, s.geometric_normal * side,
+                                                      s.normal * side, s.normal * side);
         const Gathered expected = brute_force(baked, map, s.position, 50);
         EXPECT_NEAR(got.radius, expected.radius, 1e-5f * expected.radius);
         EXPECT_NEAR(got.irradiance.y, expected.irradiance.y, 1e-4f * expected.irradiance.y + 1e-6f);
@@ -247,6 +248,40 @@ TEST(Estimate, WhatNodesSeeOfALampSavesRaysButChangesNoLight) {
             ++compared;
         }
     EXPECT_LE(different, compared / 50);
+}
+
+TEST(Estimate, LightOfCellsHoldsSmallLampsAsTheyAre) {
+    RoomSettings room;
+    room.triangles = 2000;
+    room.lights = 5;
+    room.lamps = Lamps::points;
+    const Scene scene = make_room(room);
+    const RayCaster caster(scene);
+    const PhotonMap map =
+        build_photon_map(scene, caster, shoot_photons(scene, caster, {300000, 1}), {300000, 0, 60, 1});
+    PhotonMap by_rays = map;
+    by_rays.visible_lamps.clear();  // then every lamp is looked at from every point
+    const Bvh bvh = build_bvh(scene);
+    const std::vector<vec3> weights = light_weights(scene, {});
+    const PhotonEstimator from_cells(scene, map, weights, {}, bvh), exact(scene, by_rays, weights, {}, bvh);
+    const CellLight cells(scene, map);
+    const size_t held = size_t(std::count_if(cells.lamps().begin(), cells.lamps().end(),
+                                             [](uint bits) { return (bits & 0x01010101u * in_cell_light) != 0; }));
+    EXPECT_GT(held, cells.lamps().size() / 4);
+    Rng rng(3, 1, 1);
+    double error2 = 0, difference = 0, sum = 0;
+    int count = 0;
+    for (uint t = 0; t < scene.triangles.size(); t += 3) {
+        const vec2 place = sample_triangle(rng.next(), rng.next());
+        const vec3 n = exact.surface_at(t, place).geometric_normal;
+        const double expected = double(exact.estimate(t, place, n).irradiance.y),
+                     got = double(from_cells.estimate(t, place, n).irradiance.y);
+        error2 += (got - expected) * (got - expected), difference += got - expected, sum += expected;
+        ++count;
+    }
+    ASSERT_GT(sum, 0);
+    EXPECT_LT(std::abs(difference) / sum, 0.003);
+    EXPECT_LT(std::sqrt(error2 / count) / (sum / count), 0.02);
 }
 
 TEST(Estimate, ReferencesPerPhotonStayBounded) {

@@ -31,7 +31,7 @@ void add_feature_bytes(Row& row, const BakedCase& baked, const CaseOnDevice& on_
     row["shadow_ray_bytes"] = on_device.bvh_bytes();
     row["texture_bytes"] = bytes_of_array(baked.scene.texels) + bytes_of_array(baked.scene.textures) +
                            bytes_of_array(baked.scene.uv0) + bytes_of_array(baked.scene.uv1);
-    row["lamp_bytes"] = bytes_of_array(baked.scene.lights) + baked.scene.lights.size() * sizeof(Lamp);
+    row["lamp_bytes"] = bytes_of_array(baked.scene.lights) + baked.scene.lights.size() * sizeof(LampPower);
 }
 
 Row measure_variant(const Bench& bench, const Variant& variant) {

@@ -23,11 +23,12 @@ class CountingEstimator : public PhotonEstimator {
     }
 #include "shaders/gather.glsl"
 
-    /// Photons tested at a point. Each accepted photon is read once more when it is added.
+    /// Photons tested at a point. The exact search reads each accepted photon once more when it is added.
     double candidates(const VisiblePoint& p) {
         reads_ = 0;
-        const Gathered sum = gather_photons(p.map, p.surface, p.geometric_normal, p.shading_normal, p.to_view);
-        return double(reads_) - double(sum.photons);
+        const Gathered sum = gather_photons(place_on(p.map, p.surface.position), p.surface, p.geometric_normal,
+                                            p.shading_normal, p.to_view);
+        return double(reads_) - (gather_mode == gather_mode_exact ? double(sum.photons) : 0.0);
     }
 
   private:

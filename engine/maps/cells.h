@@ -1,0 +1,38 @@
+// What a pixel reads in the cached mode: the light at the corners of each cell of the lattices with all lamps at their
+// present power, and the lamps that the cell leaves to the pixel. Follows from map and scene; not in the file.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "maps/photon_map.h"
+#include "scene/scene.h"
+
+namespace lw {
+
+class CellLight {
+  public:
+    /// Finds which lamps the light of each cell holds. Scene and map must outlive it.
+    CellLight(const Scene& scene, const PhotonMap& map);
+
+    /// What each cell knows of each lamp, cell_lamp_words() words per cell; empty when photons hold all light.
+    const std::vector<uint>& lamps() const { return lamps_; }
+    /// The corners' irradiance, four RGB9E5 per cell of lux x the returned scale; weights: RGB power of each lamp.
+    float sum(std::span<const vec3> weights, std::vector<uvec4>& light) const;
+
+  private:
+    bool holds(size_t cell, uint lamp) const;
+    void describe_cells(const SurfaceGrid& grid);
+    uint describe(const SurfaceLattice& lattice, uint node, uint lamp) const;
+    void add_direct_of_punctuals(const SurfaceGrid& grid, float height);
+    bool is_even(const SurfaceGrid& grid, uint node, uint lamp, float height) const;
+
+    const Scene& scene_;
+    const PhotonMap& map_;
+    uint lamp_count_;
+    std::vector<uint> lamps_;
+    std::vector<uint> punctual_;              // lamps whose light cells may hold
+    std::vector<std::vector<float>> direct_;  // of each of them: lux at the nodes for intensity 1, unshadowed
+    float brightest_direct_ = 1e-20f;
+};
+
+}  // namespace lw

@@ -1,0 +1,75 @@
+// The scene and its map as the shaders find them in descriptor set 0 (frame.h, gather/resident): specialization constants,
+// arrays, and the functions by which the texts shared with C++ read them.
+#include "frame.h"
+
+layout(constant_id = constant_has_uv0) const bool has_uv0 = true;
+layout(constant_id = constant_has_uv1) const bool has_uv1 = true;
+layout(constant_id = constant_has_colors) const bool has_colors = true;
+layout(constant_id = constant_has_tangents) const bool has_tangents = true;
+layout(constant_id = constant_has_textures) const bool has_textures = true;
+layout(constant_id = constant_has_directions) const bool has_directions = true;
+layout(constant_id = constant_has_alpha) const bool has_alpha = true;
+layout(constant_id = constant_has_transmission) const bool has_transmission = true;
+layout(constant_id = constant_chunks) const uint chunks = 1u;
+layout(constant_id = constant_chunk_shift) const uint chunk_shift = 27u;
+layout(constant_id = constant_gather_mode) const uint gather_mode = 1u;
+layout(constant_id = constant_heap_size) const uint heap_size = 256u;
+layout(constant_id = constant_has_direct) const bool has_direct = true;
+layout(constant_id = constant_has_coverage) const bool has_coverage = true;
+layout(constant_id = constant_has_visible_lamps) const bool has_visible_lamps = true;
+layout(constant_id = constant_has_mirrors) const bool has_mirrors = true;
+layout(constant_id = constant_has_mesh_lamps) const bool has_mesh_lamps = true;
+layout(constant_id = constant_has_metallic_roughness_textures) const bool has_metallic_roughness_textures = true;
+layout(constant_id = constant_has_transmission_textures) const bool has_transmission_textures = true;
+layout(constant_id = constant_has_emissive_textures) const bool has_emissive_textures = true;
+layout(constant_id = constant_has_shadow_rays) const bool has_shadow_rays = true;
+layout(constant_id = constant_stage) const uint stage = stage_photons;
+
+layout(set = 0, binding = binding_corners) uniform textureBuffer corners;
+layout(set = 0, binding = binding_triangles) uniform utextureBuffer triangles;
+layout(set = 0, binding = binding_uv1) uniform textureBuffer uv1;
+layout(set = 0, binding = binding_colors) uniform textureBuffer colors;
+layout(set = 0, binding = binding_tangents) uniform textureBuffer tangents;
+layout(set = 0, binding = binding_texels) uniform textureBuffer texels;
+layout(set = 0, binding = binding_looks) uniform utextureBuffer looks;
+layout(set = 0, binding = binding_materials, scalar) readonly buffer Materials { Material materials[]; };
+layout(set = 0, binding = binding_textures, scalar) readonly buffer Textures { Texture textures[]; };
+
+vec3 corner_position(uint triangle, uint c) { return texelFetch(corners, int(6u * triangle + 2u * c)).xyz; }
+vec3 corner_normal(uint triangle, uint c) { return texelFetch(corners, int(6u * triangle + 2u * c + 1u)).xyz; }
+vec2 corner_uv0(uint triangle, uint c) {
+    int first = int(6u * triangle + 2u * c);
+    return vec2(texelFetch(corners, first).w, texelFetch(corners, first + 1).w);
+}
+vec2 corner_uv1(uint triangle, uint c) { return texelFetch(uv1, int(3u * triangle + c)).xy; }
+vec4 corner_color(uint triangle, uint c) { return texelFetch(colors, int(3u * triangle + c)); }
+vec4 corner_tangent(uint triangle, uint c) { return texelFetch(tangents, int(3u * triangle + c)); }
+vec4 texel_at(uint i) { return texelFetch(texels, int(i)); }
+
+Material material_of(uint triangle) {
+    uint i = texelFetch(triangles, int(triangle)).z;
+    uvec4 t[look_texels];
+    for (uint k = 0u; k < look_texels; ++k) t[k] = texelFetch(looks, int(look_texels * i + k));
+    Material m;
+    m.base_color = uintBitsToFloat(t[0].xyz);
+    m.alpha = uintBitsToFloat(t[0].w);
+    m.emissive = uintBitsToFloat(t[1].xyz);
+    m.metallic = uintBitsToFloat(t[1].w);
+    m.specular_color = uintBitsToFloat(t[2].xyz);
+    m.roughness = uintBitsToFloat(t[2].w);
+    m.specular = uintBitsToFloat(t[3].x);
+    m.ior = uintBitsToFloat(t[3].y);
+    m.transmission = uintBitsToFloat(t[3].z);
+    m.alpha_cutoff = uintBitsToFloat(t[3].w);
+    m.normal_scale = uintBitsToFloat(t[4].x);
+    m.flags = t[4].y;
+    if (!has_textures) return m;
+    m.base_color_texture = materials[i].base_color_texture;
+    m.metallic_roughness_texture = materials[i].metallic_roughness_texture;
+    m.normal_texture = materials[i].normal_texture;
+    m.emissive_texture = materials[i].emissive_texture;
+    m.transmission_texture = materials[i].transmission_texture;
+    return m;
+}
+
+int light_of_surface(uint triangle) { return int(texelFetch(triangles, int(triangle)).w); }
