@@ -68,7 +68,8 @@ LW_CONST uint constant_has_shadow_rays = 19u;
 LW_CONST uint constant_has_metallic_roughness_textures = 20u;
 LW_CONST uint constant_has_transmission_textures = 21u;
 LW_CONST uint constant_has_mirrors = 22u;
-LW_CONST uint constant_count = 23u;
+LW_CONST uint constant_has_caustics = 23u;
+LW_CONST uint constant_count = 24u;
 
 LW_CONST uint no_triangle = 0xffffffffu;
 
@@ -133,6 +134,7 @@ layout(constant_id = constant_has_direct) const bool has_direct = true;
 layout(constant_id = constant_has_coverage) const bool has_coverage = true;
 layout(constant_id = constant_has_visible_lamps) const bool has_visible_lamps = true;
 layout(constant_id = constant_has_mirrors) const bool has_mirrors = true;
+layout(constant_id = constant_has_caustics) const bool has_caustics = true;
 layout(constant_id = constant_has_mesh_lamps) const bool has_mesh_lamps = true;
 layout(constant_id = constant_has_metallic_roughness_textures) const bool has_metallic_roughness_textures = true;
 layout(constant_id = constant_has_transmission_textures) const bool has_transmission_textures = true;

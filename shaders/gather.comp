@@ -36,6 +36,7 @@ layout(set = 1, binding = binding_normal_depth, scalar) writeonly buffer NormalD
 #define scene_size frame.scene_size
 #define shadow_rays frame.shadow_rays
 #define inverse_irradiance_scale frame.inverse_irradiance_scale
+#define triangle_limit frame.triangle_limit
 #define light_count uint(lamps.length())
 #define bvh_node_count uint(bvh_nodes.length())
 
@@ -76,6 +77,7 @@ Light light_at(uint i) { return lamps[i].light; }
 #include "surface.glsl"
 #include "bsdf.glsl"
 #include "gather.glsl"
+#include "caustics.glsl"
 #include "rays.glsl"
 #include "direct.glsl"
 #include "shade.glsl"
@@ -91,7 +93,7 @@ void main() {
     if (xy.x >= frame.width || xy.y >= frame.height) return;
     uint pixel = xy.y * frame.width + xy.x;
     uvec4 visible = texelFetch(visibility, ivec2(xy), 0);
-    if (visible.x >= frame.triangle_limit) {
+    if (visible.x >= triangle_limit) {
         store(pixel, vec4(0.0f), vec4(0.0f));
         return;
     }

@@ -1,5 +1,6 @@
 // What a view ray brings back from the surface it meets, mirrors followed. One text for C++ and GLSL; needs gather.glsl,
-// rays.glsl, direct.glsl, the array triangle_maps, the function lamp_factor and the constants has_direct, has_mirrors.
+// caustics.glsl, rays.glsl, direct.glsl, the array triangle_maps, the function lamp_factor and the constants has_caustics,
+// has_direct, has_mirrors.
 
 struct Shaded {
     Gathered light;  // radiance towards the eye; illuminance, bandwidth and photons of the first surface
@@ -26,6 +27,7 @@ Shaded shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed) LW_MEMBER {
         vec3 n_shading = front ? s.normal : -s.normal;
         uint map = triangle_maps[2u * triangle + (front ? 0u : 1u)];
         Gathered light = gather_photons(map, s, n_geometric, n_shading, to_eye);
+        if (has_caustics) add_caustics(triangle, front ? 0u : 1u, map, s, n_geometric, n_shading, to_eye, light);
         if (has_direct) add_direct(map, s, n_geometric, n_shading, to_eye, seed, light);
         light.radiance += own_radiance(s, front);
         if (mirrors == 0u) {

@@ -33,6 +33,8 @@ class PhotonEstimator : public SurfaceReader {
           neighbours(settings.neighbours),
           max_radius(map.settings.radius),
           inverse_flux_scale(1.0f / map.flux_scale),
+          has_caustics(map.caustic_grids > 0),
+          triangle_limit(uint(scene.triangles.size())),
           has_directions(map.has_directions()),
           has_coverage(map.has_coverage()),
           has_visible_lamps(map.has_visible_lamps()),
@@ -66,6 +68,7 @@ class PhotonEstimator : public SurfaceReader {
     uint node_coverage(uint node) const { return map_.coverage[node]; }
     uint node_irradiance(uint node) const { return summed_irradiance_[node]; }
 
+#include "shaders/caustics.glsl"
 #include "shaders/direct.glsl"
 #include "shaders/gather.glsl"
 #include "shaders/rays.glsl"
@@ -93,6 +96,8 @@ class PhotonEstimator : public SurfaceReader {
     uint neighbours;
     float max_radius;
     float inverse_flux_scale;
+    bool has_caustics;
+    uint triangle_limit;
     bool has_directions, has_coverage;
     bool has_visible_lamps;
     const uint* visible_lamps;

@@ -1,0 +1,49 @@
+// Light that lamps send by mirrors and smooth glass alone, from grids of its own (second half of triangle_maps): gathered at
+// each point with a small bandwidth, so that it stays sharp; never in the nodes. One text for C++ and GLSL; needs gather.glsl,
+// the array triangle_maps, the constant has_caustics and triangle_limit, the number of triangles.
+
+/// Radius that holds caustic_neighbours photons, from the counts of a growing window of cells.
+float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
+    ivec2 cell = cell_of(local, grid);
+    int last_ring = int(grid.radius / grid.cell_size) + 1;
+    float count = 0.0f;
+    int ring = 0;
+    for (; ring <= last_ring; ++ring) {
+        count = 0.0f;
+        for (int y = cell.y - ring; y <= cell.y + ring; ++y) {
+            uvec2 span = row_span(grid, cell.x - ring, cell.x + ring, y);
+            count += float(span.y - span.x);
+        }
+        if (count >= 1.25f * caustic_neighbours || covers_grid(grid, cell, ring)) break;
+    }
+    float side = float(2 * ring + 1) * grid.cell_size;
+    float wanted = side * sqrt(caustic_neighbours / (lw_pi * max(count, 1.0f)));
+    return clamp(wanted, min(0.5f * grid.cell_size, grid.radius), grid.radius);
+}
+
+/// Adds caustic light at a surface whose other light comes from `map`; `side` 0: seen from the front, 1: from the back.
+void add_caustics(uint triangle, uint side, uint map, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
+                  LW_INOUT(Gathered) light) LW_MEMBER {
+    uint own = triangle_maps[2u * (triangle_limit + triangle) + side];
+    if (own == no_map) return;
+    SurfaceGrid grid = grids[own];
+    vec3 local = position_in_grid(grid, s.position);
+    float radius = caustic_radius(grid, local);
+    float r2 = radius * radius;
+    float peak = 2.0f / (lw_pi * r2);
+    if (has_coverage && map != no_map) {  // kernels much smaller than the coverage's least one hardly reach a border
+        float wide = min(4.0f * radius / grid.radius, 1.0f);
+        peak /= mix(1.0f, coverage_at(grids[map], position_in_grid(grids[map], s.position), radius), wide);
+    }
+    int y1 = int(floor((local.y + radius) / grid.cell_size));
+    for (int y = int(floor((local.y - radius) / grid.cell_size)); y <= y1; ++y) {
+        uvec2 span = row_span(grid, int(floor((local.x - radius) / grid.cell_size)),
+                              int(floor((local.x + radius) / grid.cell_size)), y);
+        for (uint i = span.x; i < span.y; ++i) {
+            vec3 d = place_in_grid(photon_place(i), grid) - local;
+            float d2 = dot(d, d);
+            if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
+            add_photon(i, peak * (1.0f - d2 / r2), s, n_geometric, n_shading, to_view, light);
+        }
+    }
+}
