@@ -21,12 +21,8 @@ double position_index(vec3 direction, vec3 forward, vec3 up) {
     const double along = double(dot(direction, forward)), x = double(dot(direction, right)),
                  y = double(dot(direction, above));
     if (along <= 1e-6) return std::numeric_limits<double>::infinity();
-    if (y < 0) {
-        const double r = std::hypot(x, y) / along;  // distance from the line of sight, in distances from the eye
-        return 1 + (r < 0.6 ? 0.8 : 1.2) * r;
-    }
-    const double sigma = degrees(std::acos(std::min(along, 1.0)));  // from the line of sight
-    const double tau = degrees(std::atan2(std::abs(x), y));         // from the vertical
+    const double sigma = degrees(std::acos(std::min(along, 1.0)));          // from the line of sight
+    const double tau = y > 0 ? degrees(std::atan2(std::abs(x), y)) : 90.0;  // from the vertical
     return std::exp((35.2 - 0.31889 * tau - 1.22 * std::exp(-2 * tau / 9)) * 1e-3 * sigma +
                     (21 + 0.26667 * tau - 0.002963 * tau * tau) * 1e-5 * sigma * sigma);
 }

@@ -23,10 +23,11 @@ TEST(Glare, PositionIndexOfGuthsTable) {
         return position_index(normalize(vec3(float(right), float(above), -1)), forward, up);
     };
     EXPECT_NEAR(at(0, 0), 1, 1e-6);
-    EXPECT_NEAR(at(1, 0), 2.11, 0.05);    // CIE 117, table 4.1: T/R = 1, H/R = 0
-    EXPECT_NEAR(at(0, 0.5), 2.86, 0.05);  // T/R = 0, H/R = 0.5
-    EXPECT_NEAR(at(0, 1), 7.00, 0.1);
-    EXPECT_NEAR(at(0, -0.5), 1.4, 1e-6);
+    EXPECT_NEAR(at(1, 0), 2.11, 0.12 * 2.11);    // CIE 117, table 4.1: T/R = 1, H/R = 0
+    EXPECT_NEAR(at(0, 0.5), 2.86, 0.12 * 2.86);  // T/R = 0, H/R = 0.5
+    EXPECT_NEAR(at(0, 1), 7.00, 0.12 * 7);
+    EXPECT_EQ(at(0, -0.5), at(0.5, 0));
+    EXPECT_NEAR(at(0.5, 1e-4), at(0.5, -1e-4), 1e-3);
     EXPECT_EQ(at(0.3, 0.2), at(-0.3, 0.2));
     EXPECT_TRUE(std::isinf(position_index(vec3(0, 0, 1), forward, up)));
 }
