@@ -82,9 +82,9 @@ TEST(GlassPhotons, BringTheLightOfThePathTracerThroughBallAndSheet) {
     const Scene scene = load_gltf(file_in_data("glass_sphere.gltf"));
     const RayCaster caster(scene);
     const Photons photons = shoot_photons(scene, caster, {1000000, 1, true});
-    for (const Square& at :
-         {Square{"spot", 0, 0, 0.1f}, Square{"spot", 0.3f, 0.3f, 0.1f}, Square{"bulb", 0, 0, 0.2f},
-          Square{"bulb", 0.2f, -0.4f, 0.2f}, Square{"panel", 0, 0, 0.2f}, Square{"panel", -0.5f, 0.4f, 0.2f}}) {
+    for (const Square& at : {Square{"spot", 0, 0, 0.1f}, Square{"spot", 0.3f, 0.3f, 0.1f}, Square{"bulb", 0, 0, 0.2f},
+                             Square{"bulb", 0.2f, -0.4f, 0.2f}, Square{"panel", 0, 0, 0.2f},
+                             Square{"panel", -0.5f, 0.4f, 0.2f}, Square{"panel", 0.7f, -0.3f, 0.2f}}) {
         const uint lamp = lamp_named(scene, at.lamp);
         std::vector<vec3> weights(scene.lights.size(), vec3(0));
         weights[lamp] = scene.lights[lamp].intensity;
@@ -95,6 +95,30 @@ TEST(GlassPhotons, BringTheLightOfThePathTracerThroughBallAndSheet) {
         EXPECT_NEAR((lux[0] + lux[1] + lux[2]) / truth, 1, 0.02 + 4 * error / truth)
             << at.lamp << " at " << at.x << " " << at.z << ": " << lux[0] << " + " << lux[1] << " + " << lux[2]
             << " lx, traced " << truth;
+    }
+}
+
+TEST(GlassPhotons, BringTheLightOfThePathTracerByMetalAndGloss) {
+    struct Room {
+        const char* file;
+        Square at;
+    };
+    for (const Room& room : {Room{"metal_sculpture.gltf", {"panel", 0, 0.6f, 0.3f}},
+                             Room{"metal_sculpture.gltf", {"spot", 0.6f, 0.6f, 0.3f}},
+                             Room{"glossy_floor.gltf", {"bulb", -0.8f, 0.5f, 0.4f}},
+                             Room{"glossy_floor.gltf", {"panel", 1, 0.5f, 0.4f}}}) {
+        const Scene scene = load_gltf(file_in_data(room.file));
+        const RayCaster caster(scene);
+        const Photons photons = shoot_photons(scene, caster, {800000, 1, true});
+        const Square& at = room.at;
+        const uint lamp = lamp_named(scene, at.lamp);
+        std::vector<vec3> weights(scene.lights.size(), vec3(0));
+        weights[lamp] = scene.lights[lamp].intensity;
+        const Caustics caustics(scene, caster, weights, {500000, 0.01f, 7, 0});
+        double error = 0;
+        const double truth = traced_lux(scene, caster, lamp, at.x, at.z, at.half, 15000, &caustics, error);
+        const std::array<double, 3> lux = floor_lux(scene, photons, lamp, at.x, at.z, at.half);
+        EXPECT_NEAR((lux[0] + lux[1] + lux[2]) / truth, 1, 0.02 + 4 * error / truth) << room.file << " " << at.lamp;
     }
 }
 
