@@ -73,7 +73,7 @@ struct FloorLight {
             truth[size_t(z * squares + x)] += luminance(a.flux) / area;
         }
         const PhotonEstimator estimator(baked.scene, baked.map, weights, {});
-        constexpr int fine = 3;
+        constexpr int fine = 8;
         for (int z = 0; z < squares * fine; ++z)
             for (int x = 0; x < squares * fine; ++x) {
                 const vec3 at((float(x) + 0.5f) / (squares * fine) * side - 0.5f * side, 0.1f,
@@ -93,7 +93,7 @@ TEST(CausticMap, ShowsTheFocusOfAGlassBall) {
     const Baked baked("glass_sphere.gltf", 1000000);
     uint spot = 0;
     while (baked.scene.light_names[spot] != "spot") ++spot;
-    const FloorLight light(baked, spot, 0.12f);
+    const FloorLight light(baked, spot, 0.16f);
     double sum = 0, brightest = 0, got = 0, error2 = 0;
     size_t lit = 0;
     for (size_t i = 0; i < light.truth.size(); ++i) {

@@ -155,6 +155,29 @@ TEST(GlassPhotons, ALampBehindASolidCoverLightsTheRoom) {
     EXPECT_NEAR(first / photons.lights[spot].flux_out, 1, 0.01);
 }
 
+TEST(GlassPhotons, LightCaughtByTotalReflectionEnds) {
+    // A bulb close under the surface of a clear ball: most of its light runs around inside (R / (n r) < 1).
+    Scene scene = load_gltf(file_in_data("glass_sphere.gltf"));
+    material_named(scene, "solid").absorption = vec3(0);
+    const uint bulb = lamp_named(scene, "bulb");
+    scene.lights[bulb].position = vec3(0.24f, 0.45f, 0) - vec3(scene.origin);
+    const RayCaster caster(scene);
+    const Photons photons = shoot_photons(scene, caster, {20000, 1, true});
+    const LightBalance& b = photons.lights[bulb];
+    EXPECT_NEAR((b.absorbed + b.escaped) / b.flux_out, 1, 1e-9);
+    double caustic = 0;
+    for (const Photon& p : photons.records)
+        if (p.light() == bulb && p.path() == path_caustic) caustic += luminance(p.flux);
+    EXPECT_GT(caustic, 0.25 * b.flux_out);  // what meets the surface below the critical angle leaves at once: 28 %
+    EXPECT_LE(caustic, 1.01 * b.flux_out);
+    const PathTracer tracer(scene, caster, light_weights(scene, {}));
+    for (int i = 0; i < 2000; ++i) {
+        Rng rng(8, 8, uint64_t(i));
+        const vec3 along(0, 0.1f * rng.next(), 1);
+        EXPECT_TRUE(std::isfinite(tracer.radiance(scene.lights[bulb].position, normalize(along), rng).y));
+    }
+}
+
 TEST(GlassPhotons, BlendedSurfacesPassTheSameShareToPhotonsAndShadowRays) {
     Scene scene = load_gltf(file_in_data("glass_sphere.gltf"));
     Material& sheet = material_named(scene, "sheet");
