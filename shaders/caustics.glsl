@@ -2,23 +2,32 @@
 // each point with a small bandwidth, so that it stays sharp; never in the nodes. One text for C++ and GLSL; needs gather.glsl,
 // the array triangle_maps, the constant has_caustics and triangle_limit, the number of triangles.
 
-/// Radius that holds caustic_neighbours photons, from the counts of a growing window of cells.
+/// Radius that holds caustic_neighbours photons, from the counts of a growing window of cells. Few photons make small grids of
+/// small cells: the window starts where it meets the grid and grows in proportion.
 float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
     ivec2 cell = cell_of(local, grid);
+    ivec2 last = ivec2(int(grid.columns) - 1, int(grid.rows) - 1);
+    int ring = max(max(max(-cell.x, cell.x - last.x), max(-cell.y, cell.y - last.y)), 0);
     int last_ring = int(grid.radius / grid.cell_size) + 1;
+    if (ring > last_ring) return grid.radius;
     float count = 0.0f;
-    int ring = 0;
-    for (; ring <= last_ring; ++ring) {
+    float area = 0.0f;
+    for (;;) {
+        int x0 = max(cell.x - ring, 0);
+        int x1 = min(cell.x + ring, last.x);
+        int y0 = max(cell.y - ring, 0);
+        int y1 = min(cell.y + ring, last.y);
         count = 0.0f;
-        for (int y = cell.y - ring; y <= cell.y + ring; ++y) {
-            uvec2 span = row_span(grid, cell.x - ring, cell.x + ring, y);
+        for (int y = y0; y <= y1; ++y) {
+            uvec2 span = row_span(grid, x0, x1, y);
             count += float(span.y - span.x);
         }
-        if (count >= 1.25f * caustic_neighbours || covers_grid(grid, cell, ring)) break;
+        area = float(x1 - x0 + 1) * float(y1 - y0 + 1) * grid.cell_size * grid.cell_size;
+        if (count >= 1.25f * caustic_neighbours || ring > last_ring || covers_grid(grid, cell, ring)) break;
+        ring += max(ring / 8, 1);
     }
-    float side = float(2 * ring + 1) * grid.cell_size;
-    float wanted = side * sqrt(caustic_neighbours / (lw_pi * max(count, 1.0f)));
-    return clamp(wanted, min(0.5f * grid.cell_size, grid.radius), grid.radius);
+    if (count < 1.0f) return grid.radius;
+    return clamp(sqrt(caustic_neighbours * area / (lw_pi * count)), min(0.5f * grid.cell_size, grid.radius), grid.radius);
 }
 
 /// Adds caustic light at a surface whose other light comes from `map`; `side` 0: seen from the front, 1: from the back.
@@ -35,8 +44,8 @@ void add_caustics(uint triangle, uint side, uint map, Surface s, vec3 n_geometri
         float wide = min(4.0f * radius / grid.radius, 1.0f);
         peak /= mix(1.0f, coverage_at(grids[map], position_in_grid(grids[map], s.position), radius), wide);
     }
-    int y1 = int(floor((local.y + radius) / grid.cell_size));
-    for (int y = int(floor((local.y - radius) / grid.cell_size)); y <= y1; ++y) {
+    int y1 = min(int(floor((local.y + radius) / grid.cell_size)), int(grid.rows) - 1);
+    for (int y = max(int(floor((local.y - radius) / grid.cell_size)), 0); y <= y1; ++y) {
         uvec2 span = row_span(grid, int(floor((local.x - radius) / grid.cell_size)),
                               int(floor((local.x + radius) / grid.cell_size)), y);
         for (uint i = span.x; i < span.y; ++i) {
