@@ -155,6 +155,41 @@ TEST(GlassPhotons, ALampBehindASolidCoverLightsTheRoom) {
     EXPECT_NEAR(first / photons.lights[spot].flux_out, 1, 0.01);
 }
 
+TEST(GlassPhotons, BentNormalsThrowTheSameLightForPhotonsAndPaths) {
+    // The floor's normals lean by 31 degrees; what the bulb sends by way of it to a square of the ceiling.
+    Scene scene = load_gltf(file_in_data("glossy_floor.gltf"));
+    for (size_t t = 0; t < scene.triangles.size(); ++t)
+        if (scene.object_names[scene.triangle_objects[t]] == "floor")
+            for (int c = 0; c < 3; ++c) scene.normals[scene.triangles[t][c]] = normalize(vec3(-0.6f, 1, 0));
+    for (const char* black : {"white", "red", "blue"}) material_named(scene, black).base_color = vec3(0);
+    material_named(scene, "polished").roughness = 0.6f;
+    const RayCaster caster(scene);
+    const Photons photons = shoot_photons(scene, caster, {1000000, 1, false});
+    const uint bulb = lamp_named(scene, "bulb");
+    const vec3 origin(scene.origin), down(0, -1, 0);
+    std::vector<vec3> weights(scene.lights.size(), vec3(0));
+    weights[bulb] = scene.lights[bulb].intensity;
+    const PathTracer tracer(scene, caster, weights);
+    for (const vec2 at : {vec2(0.3f, 1), vec2(1.4f, -1)}) {
+        double counted = 0, traced = 0;
+        for (const Photon& p : photons.records) {
+            const vec3 place = p.position + origin;
+            if (p.light() != bulb || p.path() != path_indirect || place.y < 2.599f) continue;
+            if (std::abs(place.x - at.x) < 0.5f && std::abs(place.z - at.y) < 0.5f)
+                counted += luminance(p.flux * weights[bulb]) / 1.0;
+        }
+        constexpr int samples = 60000;
+        for (int i = 0; i < samples; ++i) {
+            Rng rng(6, 6, uint64_t(i));
+            const vec3 world(at.x + 0.5f * (2 * rng.next() - 1), 2.6f, at.y + 0.5f * (2 * rng.next() - 1));
+            const vec3 point = caster.offset(world - origin, down), to_bulb = scene.lights[bulb].position - point;
+            const double direct = luminance(weights[bulb]) * double(dot(to_bulb, down)) / std::pow(length(to_bulb), 3);
+            traced += (luminance(tracer.irradiance(point, down, rng)) - direct) / samples;
+        }
+        EXPECT_NEAR(counted / traced, 1, 0.05) << at.x;
+    }
+}
+
 TEST(GlassPhotons, LightCaughtByTotalReflectionEnds) {
     // A bulb close under the surface of a clear ball: most of its light runs around inside (R / (n r) < 1).
     Scene scene = load_gltf(file_in_data("glass_sphere.gltf"));
