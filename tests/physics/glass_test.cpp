@@ -253,5 +253,28 @@ TEST(Glass, AbsorptionFollowsTheLengthOfTheWay) {
     EXPECT_NEAR(sum / (2 * std::exp(-3 * 0.5)), 1, 0.12);  // the walls lose what the ball takes: a little below
 }
 
+TEST(Alpha, ABlendedBallIsMetByItsAlphaAndAMaskedHoleNotAtAll) {
+    const Scene thing = load_gltf(file_in_data("glass_sphere.gltf"));
+    const auto seen = [&](uint flags, float alpha) {
+        const Scene scene = furnace_with(thing, material_named(thing, "solid"), [&](Material& m) {
+            m.transmission = 0, m.base_color = vec3(0), m.specular = 0;
+            m.flags = flags, m.alpha = alpha;
+        });
+        const RayCaster caster(scene);
+        const PathTracer tracer(scene, caster, light_weights(scene, {}));
+        double sum = 0;
+        constexpr int samples = 20000;
+        for (int i = 0; i < samples; ++i) {
+            Rng rng(1, 2, uint64_t(i));
+            sum += double(tracer.radiance(vec3(0, -0.15f, 0.8f), vec3(0, 0, -1), rng).y) / samples;
+        }
+        return sum;
+    };
+    EXPECT_NEAR(seen(material_alpha_blend, 0.3f) / (2 * 0.7 * 0.7), 1, 0.04);  // its front and its back
+    EXPECT_NEAR(seen(material_alpha_blend, 0), 2, 0.02);
+    EXPECT_NEAR(seen(material_alpha_mask, 0.3f), 2, 0.02);
+    EXPECT_EQ(seen(material_alpha_mask, 0.7f), 0);
+}
+
 }  // namespace
 }  // namespace lw
