@@ -27,7 +27,7 @@ float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
         ring += max(ring / 8, 1);
     }
     if (count < 1.0f) return grid.radius;
-    return clamp(sqrt(caustic_neighbours * area / (lw_pi * count)), min(0.5f * grid.cell_size, grid.radius), grid.radius);
+    return clamp(sqrt(caustic_neighbours * area / (lw_pi * count)), 0.02f * min(grid.cell_size, grid.radius), grid.radius);
 }
 
 /// Adds caustic light at a surface whose other light comes from `map`; `side` 0: seen from the front, 1: from the back.

@@ -110,8 +110,8 @@ TEST(CausticMap, ShowsTheFocusOfAGlassBall) {
     ASSERT_GT(lit, 10u);
     double lit_sum = 0;
     for (double e : light.truth) lit_sum += e >= 0.05 * brightest ? e : 0;
-    EXPECT_LT(std::sqrt(error2 / double(lit)) / (lit_sum / double(lit)), 0.15);
-    EXPECT_NEAR(got / sum, 1, 0.05);  // the kernels on the dark side of a sharp rim reach into the light
+    EXPECT_LT(std::sqrt(error2 / double(lit)) / (lit_sum / double(lit)), 0.1);
+    EXPECT_NEAR(got / sum, 1, 0.03);  // the kernels on the dark side of a sharp rim reach into the light
 }
 
 }  // namespace
