@@ -1,5 +1,6 @@
-// The reflecting part of the glTF 2.0 metallic-roughness BRDF (specification, appendix B.2-B.3) with
-// KHR_materials_specular, _ior and _transmission. One text for C++ and GLSL; needs Surface from surface.glsl.
+// The glTF 2.0 metallic-roughness BRDF (specification, appendix B.2-B.3) with KHR_materials_specular, _ior, _transmission
+// and _volume: reflection, thin sheets and refracting glass; single scattering, as the specification has it. One text for
+// C++ and GLSL; needs Surface, surface_at, the arrays of surface.glsl and the constants has_alpha, has_transmission.
 
 /// Fresnel reflectance at normal incidence of the dielectric base.
 vec3 dielectric_f0(Surface s) LW_MEMBER {
@@ -7,11 +8,34 @@ vec3 dielectric_f0(Surface s) LW_MEMBER {
     return min(s.specular_color * (r * r), vec3(1.0f)) * s.specular;
 }
 
+/// True for the boundary of a transmissive volume, where light refracts; false for thin sheets and opaque surfaces.
+bool refracts(Surface s) LW_MEMBER {
+    return has_transmission && s.transmission > 0.0f && s.metallic < 1.0f && (s.flags & material_thin) == 0u;
+}
+
+/// Cosine behind a refracting surface met at `cosine`, `eta` = index on this side / index behind it; negative when the
+/// reflection is total.
+float refracted_cosine(float cosine, float eta) LW_MEMBER {
+    float k = 1.0f - eta * eta * (1.0f - cosine * cosine);
+    return k > 0.0f ? sqrt(k) : -1.0f;
+}
+
 float schlick_weight(float cosine) LW_MEMBER {
     float m = clamp(1.0f - cosine, 0.0f, 1.0f);
     float m2 = m * m;
     return m2 * m2 * m;
 }
+
+/// Fresnel reflectance of the dielectric met at `cosine`. From inside a volume Schlick's cosine is that of the refracted
+/// ray, so that both directions through a surface agree; beyond the critical angle everything is reflected.
+vec3 dielectric_fresnel(Surface s, float cosine, bool inside) LW_MEMBER {
+    vec3 f0 = dielectric_f0(s);
+    if (inside) cosine = refracted_cosine(cosine, s.ior);
+    return cosine < 0.0f ? vec3(1.0f) : f0 + (vec3(s.specular) - f0) * schlick_weight(cosine);
+}
+
+/// What is not reflected: the same for all channels (appendix B.3.4).
+float passed_by_fresnel(vec3 fresnel) LW_MEMBER { return 1.0f - max(fresnel.x, max(fresnel.y, fresnel.z)); }
 
 /// GGX distribution times the height-correlated Smith visibility V = G / (4 n.l n.v).
 float ggx_d_v(float alpha, float nh, float nl, float nv) LW_MEMBER {
@@ -41,22 +65,88 @@ vec3 eval_brdf(Surface s, vec3 n, vec3 to_view, vec3 to_light, bool diffuse_only
     float h_length = length(h);
     h = h_length > 1e-6f ? h / h_length : n;
     float vh = clamp(dot(to_view, h), 0.0f, 1.0f);
-    float weight = schlick_weight(vh);
-    vec3 f0 = dielectric_f0(s);
-    vec3 fresnel = f0 + (vec3(s.specular) - f0) * weight;
-    float dielectric_diffuse = 1.0f - max(fresnel.x, max(fresnel.y, fresnel.z));
-    vec3 metal_fresnel = s.base_color + (vec3(1.0f) - s.base_color) * weight;
+    vec3 fresnel = dielectric_fresnel(s, vh, refracts(s) && dot(s.geometric_normal, to_view) < 0.0f);
+    float dielectric_diffuse = passed_by_fresnel(fresnel);
+    vec3 metal_fresnel = s.base_color + (vec3(1.0f) - s.base_color) * schlick_weight(vh);
     float alpha = s.roughness * s.roughness;
     float lobe = alpha < smallest_alpha ? 0.0f : ggx_d_v(alpha, clamp(dot(n, h), 0.0f, 1.0f), nl, nv);
     return diffuse * dielectric_diffuse + (fresnel * (1.0f - s.metallic) + metal_fresnel * s.metallic) * lobe;
 }
 
-/// Fraction of light that passes a thin transmissive sheet straight through (KHR_materials_transmission).
-vec3 thin_transmittance(Surface s, float cosine) LW_MEMBER {
-    vec3 f0 = dielectric_f0(s);
-    vec3 fresnel = f0 + (vec3(s.specular) - f0) * schlick_weight(cosine);
-    float passed = (1.0f - max(fresnel.x, max(fresnel.y, fresnel.z))) * s.transmission * (1.0f - s.metallic);
-    return s.base_color * passed;
+/// True when what a sheet transmits goes straight on: shadow rays pass it, and light through it is still direct.
+bool passes_straight(Surface s) LW_MEMBER {
+    return (s.flags & material_thin) != 0u && s.roughness * s.roughness < smallest_alpha;
+}
+
+/// True when the transmission has no spread: smooth, or a volume of the index of air, which bends nothing.
+bool transmits_smoothly(Surface s) LW_MEMBER {
+    return s.roughness * s.roughness < smallest_alpha || (refracts(s) && abs(s.ior - 1.0f) < 1e-3f);
+}
+
+/// Part of the light met at `cosine` that the transmission lobe carries on, roughness aside.
+vec3 transmitted_part(Surface s, float cosine, bool inside) LW_MEMBER {
+    float passed = passed_by_fresnel(dielectric_fresnel(s, cosine, inside));
+    return s.base_color * (passed * s.transmission * (1.0f - s.metallic));
+}
+
+/// Half vector of a refraction, on the side of the viewer (Walter et al. 2007, equation 16).
+/// eta_view, eta_light: refractive indices on the two sides.
+vec3 refraction_half(vec3 n, vec3 to_view, vec3 to_light, float eta_view, float eta_light) LW_MEMBER {
+    vec3 h = eta_view * to_view + eta_light * to_light;
+    float h_length = length(h);
+    if (h_length < 1e-6f) return n;
+    h = h / h_length;
+    return dot(h, n) < 0.0f ? -h : h;
+}
+
+/// Value (1/sr, without cosine) of the transmission of a rough sheet or volume, for a light on the far side of `n`.
+/// Radiance: seen from the thinner medium it is smaller by the square of the refractive index (Walter et al. 2007,
+/// equation 21). Zero for smooth glass, which has no value, only samples.
+vec3 eval_btdf(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
+    float alpha = s.roughness * s.roughness;
+    float nl = -dot(n, to_light);
+    float nv = max(dot(n, to_view), 1e-4f);
+    if (nl <= 0.0f || s.transmission <= 0.0f || transmits_smoothly(s) || (s.flags & material_unlit) != 0u) return vec3(0.0f);
+    if ((s.flags & material_thin) != 0u) {  // the reflection, turned to the other side
+        vec3 h = normalize(to_view + to_light + 2.0f * nl * n);
+        return transmitted_part(s, clamp(dot(to_view, h), 0.0f, 1.0f), false) * ggx_d_v(alpha, clamp(dot(n, h), 0.0f, 1.0f), nl, nv);
+    }
+    bool inside = dot(s.geometric_normal, to_view) < 0.0f;
+    float eta_view = inside ? s.ior : 1.0f;
+    float eta_light = inside ? 1.0f : s.ior;
+    vec3 h = refraction_half(n, to_view, to_light, eta_view, eta_light);
+    float vh = dot(to_view, h);
+    float lh = -dot(to_light, h);
+    if (vh <= 0.0f || lh <= 0.0f) return vec3(0.0f);
+    float root = eta_view * vh - eta_light * lh;
+    float scale = 4.0f * vh * lh * eta_view * eta_view / max(root * root, 1e-12f);
+    return transmitted_part(s, vh, inside) * (ggx_d_v(alpha, clamp(dot(n, h), 0.0f, 1.0f), nl, nv) * scale);
+}
+
+/// BRDF or BTDF, whichever side of `n` the light is on.
+vec3 eval_bsdf(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
+    if (has_transmission && dot(n, to_light) < 0.0f) return eval_btdf(s, n, to_view, to_light);
+    return eval_brdf(s, n, to_view, to_light, false);
+}
+
+/// Part of the light left after `distance` m in a medium of `absorption` 1/m (Beer-Lambert).
+vec3 passed_by_medium(vec3 absorption, float distance) LW_MEMBER { return exp(-absorption * distance); }
+
+/// How much of the surface is there: alpha of a blend; 0 or 1 by the cutoff of a mask; 1 of everything else.
+float opacity_at(uint triangle, Surface s) LW_MEMBER {
+    if (!has_alpha) return 1.0f;
+    if ((s.flags & material_alpha_mask) != 0u)
+        return s.alpha < material_of(triangle).alpha_cutoff ? 0.0f : 1.0f;
+    return (s.flags & material_alpha_blend) != 0u ? clamp(s.alpha, 0.0f, 1.0f) : 1.0f;
+}
+
+/// Fraction of light that a crossed triangle lets pass straight on: holes, and thin smooth sheets. The rest is reflected,
+/// scattered or refracted, which is the photons' and the paths' business.
+vec3 passed_by(uint triangle, vec2 barycentrics, vec3 direction) LW_MEMBER {
+    Surface s = surface_at(triangle, barycentrics);
+    vec3 passed = vec3(0.0f);
+    if (has_transmission && passes_straight(s)) passed = transmitted_part(s, max(abs(dot(s.normal, direction)), 1e-4f), false);
+    return mix(vec3(1.0f), passed, opacity_at(triangle, s));
 }
 
 /// Directional albedo: the part of light from all sides alike that leaves towards the viewer, at cosine `nv` to the

@@ -29,13 +29,14 @@ LW_CONST uint binding_bvh_nodes = 14u;  // RGBA32, BvhNode
 LW_CONST uint binding_bvh_triangles = 15u;
 LW_CONST uint binding_looks = 16u;  // RGBA32, the first look_texels of each Material: all but its textures
 LW_CONST uint binding_lamp_powers = 17u;  // RGBA32F, LampPower
-LW_CONST uint texel_binding_count = 18u;
-LW_CONST uint binding_materials = 18u;  // from here on storage buffers
-LW_CONST uint binding_textures = 19u;
-LW_CONST uint binding_lights = 20u;
-LW_CONST uint binding_emitters = 21u;
-LW_CONST uint scene_binding_count = 22u;
-LW_CONST uint look_texels = 5u;
+LW_CONST uint binding_caustic_maps = 18u;  // RG32 per triangle: map of the front, of the back; empty without caustics
+LW_CONST uint texel_binding_count = 19u;
+LW_CONST uint binding_materials = 19u;  // from here on storage buffers
+LW_CONST uint binding_textures = 20u;
+LW_CONST uint binding_lights = 21u;
+LW_CONST uint binding_emitters = 22u;
+LW_CONST uint scene_binding_count = 23u;
+LW_CONST uint look_texels = 6u;
 
 // Photon records beyond the device's texel buffers are split into chunks of 2^shift records, one descriptor each.
 LW_CONST uint most_chunks = 4u;
@@ -69,7 +70,8 @@ LW_CONST uint constant_has_metallic_roughness_textures = 18u;
 LW_CONST uint constant_has_transmission_textures = 19u;
 LW_CONST uint constant_has_mirrors = 20u;
 LW_CONST uint constant_stage = 21u;
-LW_CONST uint constant_count = 22u;
+LW_CONST uint constant_has_caustics = 22u;
+LW_CONST uint constant_count = 23u;
 
 /// The dispatches of the gather: photons at all pixels, then rays at those that need any.
 LW_CONST uint stage_photons = 0u;
@@ -128,7 +130,7 @@ struct Screen {
 };
 
 #ifdef __cplusplus
-static_assert(offsetof(Material, flags) == 68 && sizeof(Material) > 16 * look_texels);
+static_assert(offsetof(Material, absorption) == 72 && sizeof(Material) > 16 * look_texels);
 static_assert(sizeof(LampPower) == 32 && sizeof(RayPixels) == 16 && sizeof(Screen) == 12);
 static_assert(sizeof(Frame) == 120 && offsetof(Frame, ray_word) == 116);
 }  // namespace lw

@@ -14,6 +14,7 @@ layout(push_constant, scalar) uniform Push { Frame frame; };
 layout(set = 0, binding = binding_lights, scalar) readonly buffer Lights { Light lights[]; };
 layout(set = 0, binding = binding_lamp_powers) uniform textureBuffer lamp_powers;
 layout(set = 0, binding = binding_emitters, scalar) readonly buffer Emitters { Emitter emitters[]; };
+layout(set = 0, binding = binding_caustic_maps) uniform utextureBuffer caustic_maps;
 layout(set = 0, binding = binding_grids) uniform utextureBuffer grids;
 layout(set = 0, binding = binding_cell_starts) uniform utextureBuffer cell_starts;
 layout(set = 0, binding = binding_places) uniform utextureBuffer places[most_chunks];
@@ -96,6 +97,11 @@ uint map_of(uint triangle, bool front) {
     return front ? record.x : record.y;
 }
 
+uint caustic_map_of(uint triangle, bool front) {
+    uvec4 record = texelFetch(caustic_maps, int(triangle));
+    return front ? record.x : record.y;
+}
+
 uint cell_start(uint cell) { return texelFetch(cell_starts, int(cell)).x; }
 
 uint node_coverage(uint node) { return texelFetch(coverage, int(node)).x; }
@@ -113,6 +119,7 @@ Light light_at(uint i) { return lights[i]; }
 #include "surface.glsl"
 #include "bsdf.glsl"
 #include "gather.glsl"
+#include "caustics.glsl"
 #include "rays.glsl"
 #include "direct.glsl"
 #include "shade.glsl"

@@ -47,6 +47,8 @@ LW_CONST uint coverage_levels = 4u;
 LW_CONST float coverage_unit = 160.0f;  // the byte of coverage 1
 LW_CONST float least_coverage = 0.05f;
 
+LW_CONST float caustic_neighbours = 120.0f;  // photons under the kernel of a caustic
+
 /// What a node sees of a lamp, four bits: what its surroundings see, then what it sees itself. No bits: not known.
 LW_CONST uint some_visible = 1u;
 LW_CONST uint some_hidden = 2u;

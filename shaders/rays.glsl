@@ -21,18 +21,6 @@ bool crosses_triangle(uint triangle, vec3 origin, vec3 direction, float far, LW_
     return u >= -1e-6f && v >= -1e-6f && u + v <= 1.000001f && t > 0.0f && t < far;
 }
 
-/// Fraction of light that a crossed triangle lets pass straight through.
-vec3 passed_by(uint triangle, vec2 barycentrics, vec3 direction) LW_MEMBER {
-    uint flags = material_of(triangle).flags;
-    Surface s = surface_at(triangle, barycentrics);
-    float cutoff = material_of(triangle).alpha_cutoff;
-    if ((flags & material_alpha_mask) != 0u && s.alpha < cutoff) return vec3(1.0f);
-    vec3 passed = vec3(0.0f);
-    if ((flags & material_thin) != 0u) passed = thin_transmittance(s, abs(dot(s.normal, direction)));
-    if ((flags & material_alpha_blend) != 0u) passed = mix(vec3(1.0f), passed, clamp(s.alpha, 0.0f, 1.0f));
-    return passed;
-}
-
 /// Where a traversal stands: `node` is next once the triangles [first, last) of the list are tested.
 struct Traversal {
     uint node;

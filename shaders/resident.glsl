@@ -23,6 +23,7 @@ layout(constant_id = constant_has_metallic_roughness_textures) const bool has_me
 layout(constant_id = constant_has_transmission_textures) const bool has_transmission_textures = true;
 layout(constant_id = constant_has_emissive_textures) const bool has_emissive_textures = true;
 layout(constant_id = constant_has_shadow_rays) const bool has_shadow_rays = true;
+layout(constant_id = constant_has_caustics) const bool has_caustics = true;
 layout(constant_id = constant_stage) const uint stage = stage_photons;
 
 layout(set = 0, binding = binding_corners) uniform textureBuffer corners;
@@ -63,6 +64,7 @@ Material material_of(uint triangle) {
     m.alpha_cutoff = uintBitsToFloat(t[3].w);
     m.normal_scale = uintBitsToFloat(t[4].x);
     m.flags = t[4].y;
+    m.absorption = uintBitsToFloat(uvec3(t[4].zw, t[5].x));
     if (!has_textures) return m;
     m.base_color_texture = materials[i].base_color_texture;
     m.metallic_roughness_texture = materials[i].metallic_roughness_texture;

@@ -16,7 +16,7 @@ LW_CONST uint material_double_sided = 1u;  // emits from both sides
 LW_CONST uint material_unlit = 2u;         // shows base colour x 1 cd/m2, reflects no light
 LW_CONST uint material_alpha_mask = 4u;
 LW_CONST uint material_alpha_blend = 8u;
-LW_CONST uint material_thin = 16u;  // transmission without refraction (not a closed volume)
+LW_CONST uint material_thin = 16u;  // transmission without refraction (no volume behind the surface)
 
 LW_CONST uint wrap_repeat = 0u;
 LW_CONST uint wrap_clamp = 1u;
@@ -42,7 +42,7 @@ struct Texture {
     uint nearest;  // 1: no bilinear filter
 };
 
-/// glTF 2.0 metallic-roughness material with KHR_materials_specular, _ior, _transmission, _emissive_strength.
+/// glTF 2.0 metallic-roughness material with KHR_materials_specular, _ior, _transmission, _volume, _emissive_strength.
 struct Material {
     vec3 base_color;
     float alpha;
@@ -56,6 +56,7 @@ struct Material {
     float alpha_cutoff;
     float normal_scale;
     uint flags;
+    vec3 absorption;  // 1/m inside a volume, from attenuationColor and attenuationDistance
     TextureSlot base_color_texture;
     TextureSlot metallic_roughness_texture;
     TextureSlot normal_texture;
@@ -107,13 +108,14 @@ struct Surface {
     vec3 specular_color;
     float ior;
     float transmission;
+    vec3 absorption;  // 1/m, behind the surface
     uint flags;
     int light;
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Texture) == 28);
-static_assert(sizeof(Material) == 72 + 5 * 32 && offsetof(Material, base_color_texture) == 72);
+static_assert(sizeof(Material) == 84 + 5 * 32 && offsetof(Material, base_color_texture) == 84);
 static_assert(sizeof(Object) == 8 && sizeof(Emitter) == 8 && sizeof(Light) == 60 && offsetof(Light, area) == 56);
 }  // namespace lw
 #endif

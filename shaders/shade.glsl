@@ -1,8 +1,10 @@
 // What a view ray brings back from the surface it meets, mirrors followed. One text for C++ and GLSL; needs gather.glsl,
-// rays.glsl, direct.glsl, the functions map_of, lamp_factor and the constants has_direct, has_mirrors.
+// caustics.glsl, rays.glsl, direct.glsl, the functions map_of, lamp_factor and the constants has_caustics, has_direct,
+// has_mirrors.
 
 /// A surface as the eye sees it.
 struct Seen {
+    uint triangle;
     Surface surface;
     MapPlace at;
     vec3 to_eye;
@@ -13,6 +15,7 @@ struct Seen {
 
 Seen see(uint triangle, vec2 barycentrics, vec3 eye) LW_MEMBER {
     Seen seen;
+    seen.triangle = triangle;
     seen.surface = surface_at(triangle, barycentrics);
     seen.to_eye = normalize(eye - seen.surface.position);
     seen.front = dot(seen.surface.geometric_normal, seen.to_eye) >= 0.0f;
@@ -32,6 +35,8 @@ vec3 own_radiance(Surface s, bool front) LW_MEMBER {
 /// Photons and glow: all there is to see, but for add_rays() where needs_rays() says so.
 Gathered without_rays(Seen seen) LW_MEMBER {
     Gathered light = gather_photons(seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye);
+    if (has_caustics)
+        add_caustics(seen.triangle, seen.front, seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, light);
     light.radiance += own_radiance(seen.surface, seen.front);
     return light;
 }

@@ -72,6 +72,7 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
     s.specular_color = m.specular_color;
     s.ior = m.ior;
     s.transmission = m.transmission;
+    s.absorption = m.absorption;
     s.flags = m.flags;
     s.light = light_of_surface(triangle);
     if (has_colors) {

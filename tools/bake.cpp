@@ -80,6 +80,10 @@ void print_map(const lw::PhotonMap& map, size_t triangles) {
     std::printf("%zu triangles, %zu maps, radius %.4g m, %.3f references per photon\n", triangles, map.grids.size(),
                 double(map.settings.radius),
                 double(map.places.size()) / double(std::max<uint64_t>(map.stored_photons, 1)));
+    if (map.caustic_grids > 0)
+        std::printf(
+            "%u of the maps hold caustics, with %zu references\n", map.caustic_grids,
+            map.places.size() - size_t(map.cell_starts[map.grids[map.grids.size() - map.caustic_grids].first_cell]));
     std::printf("map %.1f MB (%.1f bytes per stored photon), peak memory %.0f MB\n", double(bytes) / 1e6,
                 double(bytes) / double(std::max<uint64_t>(map.stored_photons, 1)), double(usage.ru_maxrss) / 1024);
 }

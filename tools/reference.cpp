@@ -53,6 +53,9 @@ void render(Options& options) {
     lw::write_exr(options.output, reference.image);
     std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n", options.output.c_str(),
                 (unsigned long long)reference.samples, reference.relative_error);
+    if (reference.caustic_radius > 0)
+        std::printf("caustics of points and suns are traced from the lamps and blurred over %.2g m\n",
+                    double(reference.caustic_radius));
 }
 
 }  // namespace
@@ -78,6 +81,15 @@ int main(int argc, char** argv) {
         ->allow_extra_args(false);
     app.add_flag("!--no-illuminance", options.settings.illuminance,
                  "leave out the illuminance channel (half the time)");
+    app.add_option(
+           "--caustic-paths", options.settings.caustic_paths,
+           "paths from the lamps per sample, for light of points and suns by way of mirrors and glass (0: none)")
+        ->capture_default_str()
+        ->check(CLI::Range(uint64_t(0), uint64_t(1) << 32));
+    app.add_option("--caustic-radius", options.settings.caustic_radius,
+                   "metres over which the first sample blurs such light, later ones less (0: 0.4 % of the scene)")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1e6));
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads (0: all cores)")
         ->capture_default_str()

@@ -33,7 +33,7 @@ struct Header {
     float flux_scale;
     uint32_t direct_in_photons;
     float irradiance_scale;
-    uint32_t reserved;
+    uint32_t caustic_grids;  // the last of the grids; 0 in files of scenes without
     std::array<uint64_t, section_count> bytes;
 };
 static_assert(sizeof(Header) == 160);
@@ -104,10 +104,10 @@ bool is_usable(const SurfaceGrid& g) {
            g.radius <= most_cells * g.cell_size && g.columns <= most_columns && g.rows <= most_columns;
 }
 
-/// Every grid has a lattice, and the map a value for each of their nodes.
+/// Every grid but those of caustics has a lattice, and the map a value for each of their nodes.
 void check_lattices(const std::filesystem::path& path, const PhotonMap& map) {
     uint64_t nodes = 0;
-    for (size_t i = 0; i < map.grids.size(); ++i) {
+    for (size_t i = 0; i < map.grids.size() - map.caustic_grids; ++i) {
         const SurfaceLattice& l = map.grids[i].lattice;
         const auto is_step = [](float v) { return v > 0 && is_place(v); };
         if (l.columns < 2 || l.rows < 2 || l.columns > most_columns || l.rows > most_columns || l.first_node != nodes ||
@@ -138,14 +138,19 @@ void check_grids(const std::filesystem::path& path, const PhotonMap& map) {
 void check_indices(const std::filesystem::path& path, const PhotonMap& map, const Scene& scene) {
     if (map.cell_starts.empty()) refuse(path, "it has no cells");
     if (map.emitted.size() != scene.lights.size()) refuse(path, "the number of lamps does not agree with the scene");
-    if (map.triangle_maps.size() != 2 * scene.triangles.size())
+    if (map.caustic_grids > map.grids.size()) refuse(path, "it has more grids of caustics than grids");
+    if (map.triangle_maps.size() != map.sides_per_triangle() * scene.triangles.size())
         refuse(path, "the number of triangles does not agree with the scene");
     if (map.fluxes.size() != map.places.size() || (map.has_directions() && map.directions.size() != map.places.size()))
         refuse(path, "the record arrays differ in length");
     check_grids(path, map);
-    for (uint index : map.triangle_maps)
-        if (index != no_map && index >= map.grids.size())
+    const size_t others = map.grids.size() - map.caustic_grids;
+    for (size_t i = 0; i < map.triangle_maps.size(); ++i) {
+        const uint index = map.triangle_maps[i];
+        const bool for_caustics = i >= 2 * scene.triangles.size();
+        if (index != no_map && (index >= map.grids.size() || (index >= others) != for_caustics))
             refuse(path, "a triangle refers to grid " + std::to_string(index) + " which does not exist");
+    }
     for (const PhotonPlace& place : map.places)
         if (light_of(place) >= scene.lights.size())
             refuse(path, "a photon refers to lamp " + std::to_string(light_of(place)) + " which does not exist");
@@ -187,7 +192,7 @@ void save_photon_map(const std::filesystem::path& path, const PhotonMap& map) {
                   map.flux_scale,
                   map.settings.direct_in_photons,
                   map.irradiance_scale,
-                  0,
+                  map.caustic_grids,
                   {}};
     size_t s = 0;
     for_each_section(map, [&](const auto& section) { header.bytes[s++] = byte_size(section); });
@@ -228,6 +233,7 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
     map.stored_photons = header.photons_stored;
     map.flux_scale = header.flux_scale;
     map.irradiance_scale = header.irradiance_scale;
+    map.caustic_grids = header.caustic_grids;
     size_t s = 0;
     for_each_section(map, [&](auto& section) {
         const uint64_t bytes = header.bytes[s++];

@@ -103,7 +103,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
       descriptors_(device, scene_bindings()) {
     if (scene.triangles.size() > 0xffffffffu / 3u)
         throw Error(scene.path.string() + ": more than " + std::to_string(0xffffffffu / 3u) + " triangles");
-    if (!map.triangle_maps.empty() && map.triangle_maps.size() != 2 * scene.triangles.size())
+    if (!map.triangle_maps.empty() && map.triangle_maps.size() != map.sides_per_triangle() * scene.triangles.size())
         throw Error(scene.path.string() + ": the photon map belongs to another scene");
     check_device(device, scene, map);
     if (map.has_coverage()) cells_.emplace(scene, map);
@@ -131,6 +131,7 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     constants_[constant_has_transmission] = std::any_of(scene.materials.begin(), scene.materials.end(),
                                                         [](const Material& m) { return m.transmission > 0; });
     constants_[constant_has_mirrors] = !bvh.nodes.empty() && has_mirrors(scene);
+    constants_[constant_has_caustics] = map.caustic_grids > 0;
     constants_[constant_has_mesh_lamps] = !scene.emitters.empty();
     constants_[constant_has_metallic_roughness_textures] = any_texture(scene, &Material::metallic_roughness_texture);
     constants_[constant_has_emissive_textures] = any_texture(scene, &Material::emissive_texture);
@@ -187,6 +188,10 @@ void Resident::upload_corners(const Scene& scene) {
         };
         triangles.emplace_back(map(0), map(1), object.material, uint(object.light));
     }
+    std::vector<uvec2> caustic_maps;
+    for (size_t t = 2 * scene.triangles.size(); t < map_->triangle_maps.size(); t += 2)
+        caustic_maps.emplace_back(map_->triangle_maps[t], map_->triangle_maps[t + 1]);
+    upload_texels<uvec2>(binding_caustic_maps, vk::Format::eR32G32Uint, caustic_maps, "caustic maps of triangles");
     upload_texels<uvec4>(binding_triangles, vk::Format::eR32G32B32A32Uint, triangles, "triangles");
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -124,16 +125,15 @@ float flux_scale_of(const std::vector<Photon>& photons) {
     return top > 0 ? std::exp2(12 - std::ceil(std::log2(top))) : 1.0f;
 }
 
-/// Drops patches without photons; returns the kept patches in order.
+/// Drops patches without photons, numbers the others after the grids the map has; returns the kept patches in order.
 std::vector<uint> keep_lit_patches(const References& references, const Patches& patches, PhotonMap& map) {
     std::vector<uint> kept, renumbered(patches.count, no_map);
     for (uint p = 0; p < patches.count; ++p) {
         if (references.starts[p] == references.starts[p + 1]) continue;
-        renumbered[p] = uint(kept.size());
+        renumbered[p] = uint(map.grids.size() + kept.size());
         kept.push_back(p);
     }
-    map.triangle_maps.resize(patches.of_side.size());
-    for (size_t i = 0; i < patches.of_side.size(); ++i) map.triangle_maps[i] = renumbered[patches.of_side[i]];
+    for (uint patch : patches.of_side) map.triangle_maps.push_back(renumbered[patch]);
     return kept;
 }
 
@@ -199,6 +199,41 @@ struct Partition {
     std::vector<float> radii;
 };
 
+/// Appends the grids of a set of photons and which triangles they belong to; returns the patch of each grid.
+std::vector<uint> append_grids(const Scene& scene, const Partition& partition, const std::vector<Photon>& photons,
+                               PhotonMap& map) {
+    const References references = find_references({scene, photons, partition.patches, partition.shapes, partition.radii,
+                                                   map.settings.neighbour_angle_deg, partition.neighbours});
+    const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map);
+    const size_t first_grid = map.grids.size(), first_place = map.places.size();
+    const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
+    const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
+
+    const bool directions = needs_directions(scene);
+    const std::vector<Record> records = pack_photons(photons, map.flux_scale, directions);
+    map.grids.resize(first_grid + kept.size());
+    parallel_for(kept.size(), [&](size_t m) {
+        map.grids[first_grid + m] = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
+        fit_grid(map.grids[first_grid + m], records, first(m), last(m));
+    });
+    uint cells = map.cell_starts.empty() ? 0 : uint(map.cell_starts.size() - 1);
+    for (size_t g = first_grid; g < map.grids.size(); ++g) {
+        map.grids[g].first_cell = cells;
+        cells += map.grids[g].columns * map.grids[g].rows;
+    }
+    const size_t end = first_place + references.photons.size();
+    map.cell_starts.resize(cells + 1);
+    map.cell_starts.back() = uint(end);
+    map.places.resize(end);
+    map.fluxes.resize(end);
+    if (directions) map.directions.resize(end);
+    parallel_for(kept.size(), [&](size_t m) {
+        fill_grid(map, uint(first_grid + m), records, first(m), last(m),
+                  uint(first_place + references.starts[kept[m]]));
+    });
+    return kept;
+}
+
 /// Lays the lattices and computes what their nodes keep. All lengths follow the largest radius R: nodes every 0.5 R, a
 /// sample every 0.03 R2 (26 under a kernel of R/2).
 void add_lattices(const Scene& scene, const RayCaster& caster, const Partition& partition,
@@ -232,33 +267,15 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     for (const LightBalance& light : photons.lights) map.emitted.push_back(light.emitted);
 
     const Partition partition(scene, photons, settings);
-    const References references =
-        find_references({scene, photons.records, partition.patches, partition.shapes, partition.radii,
-                         settings.neighbour_angle_deg, partition.neighbours});
-    const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map);
-    const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
-    const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
-
-    const bool directions = needs_directions(scene);
-    const std::vector<Record> records = pack_photons(photons.records, map.flux_scale, directions);
-    map.grids.resize(kept.size());
-    parallel_for(kept.size(), [&](size_t m) {
-        map.grids[m] = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
-        fit_grid(map.grids[m], records, first(m), last(m));
-    });
-    uint cells = 0;
-    for (SurfaceGrid& grid : map.grids) {
-        grid.first_cell = cells;
-        cells += grid.columns * grid.rows;
-    }
-    map.cell_starts.assign(cells + 1, uint(references.photons.size()));
-    map.places.resize(references.photons.size());
-    map.fluxes.resize(references.photons.size());
-    if (directions) map.directions.resize(references.photons.size());
-    parallel_for(kept.size(), [&](size_t m) {
-        fill_grid(map, uint(m), records, first(m), last(m), uint(references.starts[kept[m]]));
-    });
+    std::vector<Photon> caustic, others;
+    for (const Photon& p : photons.records)
+        if (p.path() == path_caustic) caustic.push_back(p);
+    if (!caustic.empty())
+        std::copy_if(photons.records.begin(), photons.records.end(), std::back_inserter(others),
+                     [](const Photon& p) { return p.path() != path_caustic; });
+    const std::vector<uint> kept = append_grids(scene, partition, caustic.empty() ? photons.records : others, map);
     add_lattices(scene, caster, partition, kept, map);
+    if (!caustic.empty()) map.caustic_grids = uint(append_grids(scene, partition, caustic, map).size());
     return map;
 }
 

@@ -27,7 +27,7 @@ class PlaneMaps {
   public:
     PlaneMaps(const Scene& scene, const PhotonMap& map) : plane_(map.grids.size(), 1), heights_(map.grids.size(), 0) {
         std::vector<char> met(map.grids.size(), 0);
-        for (size_t side = 0; side < map.triangle_maps.size(); ++side) {
+        for (size_t side = 0; side < std::min(map.triangle_maps.size(), 2 * scene.triangles.size()); ++side) {
             const uint m = map.triangle_maps[side];
             if (m == no_map || !plane_[m]) continue;
             const float first = height_of(scene, map.grids[m], scene.triangles[side / 2].x);

@@ -31,6 +31,8 @@ class PhotonEstimator : public SurfaceReader {
           neighbours(settings.neighbours),
           max_radius(map.settings.radius),
           inverse_flux_scale(1.0f / map.flux_scale),
+          has_caustics(map.caustic_grids > 0),
+          triangle_count_(uint(scene.triangles.size())),
           has_directions(map.has_directions()),
           has_coverage(map.has_coverage()),
           has_visible_lamps(map.has_visible_lamps() && !map.irradiance.empty()),
@@ -68,6 +70,9 @@ class PhotonEstimator : public SurfaceReader {
     uvec4 cell_light(uint cell) const { return cell_light_[cell]; }
     uint cell_lamps(uint word) const { return cell_lamps_[word]; }
     uint map_of(uint triangle, bool front) const { return triangle_maps[2 * triangle + (front ? 0 : 1)]; }
+    uint caustic_map_of(uint triangle, bool front) const {
+        return triangle_maps[2 * (size_t(triangle_count_) + triangle) + (front ? 0 : 1)];
+    }
     const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : no_grid_; }
     uint cell_start(uint cell) const { return map_.cell_starts[cell]; }
     const BvhNode& bvh_node_at(uint i) const { return bvh_nodes[i]; }
@@ -76,6 +81,7 @@ class PhotonEstimator : public SurfaceReader {
 #include "shaders/gather.glsl"
 #include "shaders/rays.glsl"
 
+#include "shaders/caustics.glsl"
 #include "shaders/direct.glsl"
 
 #include "shaders/shade.glsl"
@@ -99,6 +105,8 @@ class PhotonEstimator : public SurfaceReader {
     uint neighbours;
     float max_radius;
     float inverse_flux_scale;
+    bool has_caustics;
+    uint triangle_count_;
     bool has_directions, has_coverage;
     bool has_visible_lamps;
     const Light* lights;

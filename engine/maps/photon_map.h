@@ -24,8 +24,10 @@ struct PhotonMap {
     uint64_t stored_photons = 0;
     float flux_scale = 1;             // record flux = flux * flux_scale, keeps RGB9E5 in range
     std::vector<uint64_t> emitted;    // photons emitted per light
-    std::vector<uint> triangle_maps;  // 2 per triangle: map of the front side, of the back side, or no_map
-    std::vector<SurfaceGrid> grids;   // per map
+    std::vector<uint> triangle_maps;  // 2 per triangle: map of the front side, of the back side, or no_map; then, when
+                                      // there are caustics, 2 per triangle again: their maps
+    std::vector<SurfaceGrid> grids;   // per map; those of caustics come last and have no lattice
+    uint caustic_grids = 0;           // how many those are; their photons (path_caustic) are in no other map
     std::vector<uint> cell_starts;    // cells of all maps + 1
     std::vector<PhotonPlace> places;  // 8 bytes per reference
     std::vector<uint> fluxes;         // RGB9E5 per reference
@@ -43,6 +45,7 @@ struct PhotonMap {
         return size(triangle_maps, grids, cell_starts, places, fluxes, directions, coverage, visible_lamps, irradiance);
     }
 
+    uint sides_per_triangle() const { return caustic_grids > 0 ? 4 : 2; }
     bool has_directions() const { return !directions.empty(); }
     bool has_coverage() const { return !coverage.empty(); }
     bool has_visible_lamps() const { return !visible_lamps.empty(); }

@@ -18,6 +18,7 @@ constexpr uint64_t chunk_size = 4096;   // paths per task
 constexpr uint64_t pilot_paths = 8192;  // per lamp, to learn what it stores
 constexpr uint64_t aim_paths = 131072;  // per sun, to learn where its light enters
 constexpr int longest_path = 10000;
+constexpr int depth_of_roulette = 64;
 
 double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
@@ -68,27 +69,32 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
     share *= aims_[chunk.light].warp(u);
     const Emission photon = emitters_.emit(chunk.light, u);
     vec3 flux = photon.flux * share, origin = caster_.offset(photon.origin, photon.normal),
-         direction = photon.direction;
+         direction = photon.direction, medium(0);
     uint path = path_direct;
     chunk.emitted_flux += luminance(flux);
     for (int depth = 0; depth < longest_path; ++depth) {
-        const std::optional<Hit> hit = caster_.nearest(origin, direction);
+        const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
         if (!hit) {
             chunk.escaped += luminance(flux);
             return;
         }
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
+        const vec3 arriving =
+            flux * surfaces_.passed_by_medium(absorption_before(surfaces_, s, direction, medium), hit->distance);
+        chunk.absorbed += luminance(flux) - luminance(arriving);
+        flux = arriving;
         const bool back = dot(s.geometric_normal, direction) > 0;
         const bool shows_light = !surfaces_.is_purely_specular(s);
         chunk.shown += shows_light;
         if (shows_light && (path != path_direct || settings_.direct_in_photons))
             chunk.photons.push_back(
                 {s.position, flux, -direction, hit->triangle, pack_origin(chunk.light, path, back)});
-        const std::optional<Scatter> next = sample_bsdf(surfaces_, s, -direction, rng);
+        const std::optional<Scatter> next = sample_bsdf(surfaces_, s, -direction, Carries::flux, rng);
         const vec3 reflected = next ? flux * next->weight : vec3(0);
         const float before = std::max({flux.x, flux.y, flux.z}),
                     after = std::max({reflected.x, reflected.y, reflected.z});
-        const float survival = before > 0 ? std::min(1.0f, after / before) : 0.0f;
+        const float longest_survival = depth < depth_of_roulette ? 1.0f : 0.95f;  // ends what is caught in clear glass
+        const float survival = before > 0 ? std::min(longest_survival, after / before) : 0.0f;
         if (!(rng.next() < survival)) {
             chunk.absorbed += luminance(flux);
             return;
@@ -98,10 +104,11 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
         flux = kept;
         if (!next->specular)
             path = path_indirect;
-        else if (path == path_direct && !((s.flags & material_thin) && dot(next->direction, direction) > 0.9999f))
+        else if (path == path_direct && !next->straight)  // shadow rays pass where light goes straight on
             path = path_caustic;
         const vec3 ng = back ? -s.geometric_normal : s.geometric_normal;
         direction = next->direction;
+        medium = absorption_after(surfaces_, s, direction, medium);
         origin = caster_.offset(s.position, dot(direction, ng) > 0 ? ng : -ng);
     }
     chunk.absorbed += luminance(flux);

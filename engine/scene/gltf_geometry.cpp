@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "scene/gltf_primitive.h"
 
@@ -121,55 +122,16 @@ void append_triangles(const PlacedMesh& mesh, const LocalPrimitive& p, size_t fi
     }
 }
 
-/// Chooses the material record of each primitive: the default one, or the thin or solid variant of a transmissive one.
-class MaterialChooser {
-  public:
-    MaterialChooser(const GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
-
-    uint choose(const LocalPrimitive& p) {
-        if (p.material < 0) return default_index();
-        const uint material = uint(p.material);
-        if (scene_.materials[material].transmission <= 0) return material;
-        const bool thin = !declares_volume(file_, p.material) && !watertight(p);
-        const bool first_use = !variants_.contains({material, true}) && !variants_.contains({material, false});
-        const auto [it, is_new] = variants_.try_emplace({material, thin}, material);
-        if (!is_new) return it->second;
-        if (!first_use) it->second = duplicate(material, thin);
-        uint& flags = scene_.materials[it->second].flags;
-        flags = thin ? flags | material_thin : flags & ~material_thin;
-        return it->second;
+/// The material record of a primitive; those that name none share one default.
+uint material_of(const LocalPrimitive& p, Scene& scene, std::optional<uint>& default_index) {
+    if (p.material >= 0) return uint(p.material);
+    if (!default_index) {
+        default_index = uint(scene.materials.size());
+        scene.materials.push_back(default_material());
+        scene.material_names.push_back("default");
     }
-
-  private:
-    uint duplicate(uint material, bool thin) {
-        const Material copy = scene_.materials[material];
-        const std::string name = scene_.material_names[material] + (thin ? " (thin)" : " (solid)");
-        scene_.materials.push_back(copy);
-        scene_.material_names.push_back(name);
-        return uint(scene_.materials.size() - 1);
-    }
-
-    uint default_index() {
-        if (!default_) {
-            default_ = uint(scene_.materials.size());
-            scene_.materials.push_back(default_material());
-            scene_.material_names.push_back("default");
-        }
-        return *default_;
-    }
-
-    bool watertight(const LocalPrimitive& p) {
-        const auto [it, is_new] = watertight_.try_emplace(&p, false);
-        if (is_new) it->second = is_watertight(p);
-        return it->second;
-    }
-
-    const GltfFile& file_;
-    Scene& scene_;
-    std::map<std::pair<uint, bool>, uint> variants_;  // by material of the file and thinness
-    std::map<const LocalPrimitive*, bool> watertight_;
-    std::optional<uint> default_;
-};
+    return *default_index;
+}
 
 }  // namespace
 
@@ -177,7 +139,7 @@ std::vector<size_t> load_geometry(GltfFile& file, const std::vector<PlacedNode>&
     std::map<int, LocalMesh> meshes;
     const std::vector<PlacedMesh> placed = place_meshes(file, nodes, scene, meshes);
     find_origin(file, placed, scene);
-    MaterialChooser chooser(file, scene);
+    std::optional<uint> default_index;
     std::vector<size_t> object_nodes;
     for (const PlacedMesh& mesh : placed) {
         const std::string name = name_of(file, mesh.node, "node");
@@ -186,7 +148,7 @@ std::vector<size_t> load_geometry(GltfFile& file, const std::vector<PlacedNode>&
             const size_t first_vertex = scene.positions.size();
             append_vertices(mesh, p, scene);
             append_triangles(mesh, p, first_vertex, scene);
-            scene.objects.push_back({chooser.choose(p), -1});
+            scene.objects.push_back({material_of(p, scene, default_index), -1});
             scene.object_names.push_back(name);
             object_nodes.push_back(mesh.node);
         }

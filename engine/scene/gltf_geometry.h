@@ -8,7 +8,6 @@
 namespace lw {
 
 /// Appends every placed mesh: origin, vertices, triangles, objects, bounds. Materials must be loaded.
-/// Transmissive materials get material_thin unless their mesh encloses a volume (one that does both is duplicated).
 /// Returns the file's node of each object. Throws Error when there is no triangle.
 std::vector<size_t> load_geometry(GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene);
 

@@ -15,6 +15,8 @@ vec3 vector_of(const tinygltf::Value& object, const std::string& key, vec3 other
             float(array.Get(2).GetNumberAsDouble())};
 }
 
+constexpr float least_attenuation = 1e-6f;  // a black attenuationColor still has a finite logarithm
+
 float unit(double value) { return float(std::clamp(value, 0.0, 1.0)); }
 
 vec3 vector_of(const std::vector<double>& v, vec3 otherwise) {
@@ -45,16 +47,34 @@ void read_extensions(const tinygltf::Material& source, Material& m) {
     if (const auto* e = extension_of(source.extensions, "KHR_materials_ior")) m.ior = float(number_of(*e, "ior", 1.5));
     if (const auto* e = extension_of(source.extensions, "KHR_materials_transmission"))
         m.transmission = unit(number_of(*e, "transmissionFactor", 0));
+    if (m.ior == 0) m.transmission = 0;  // reflects everything (KHR_materials_ior)
     if (extension_of(source.extensions, "KHR_materials_unlit")) {
         m.flags |= material_unlit;
         m.emissive = vec3(0);
     }
 }
 
+/// KHR_materials_volume: transmissive surfaces are thin sheets unless the material has a thickness; the light inside
+/// falls as attenuationColor^(distance / attenuationDistance). The thickness itself is that of the mesh.
+void read_volume(const GltfFile& file, const tinygltf::Material& source, const std::string& where, Material& m) {
+    const auto* e = extension_of(source.extensions, "KHR_materials_volume");
+    const double thickness = e ? number_of(*e, "thicknessFactor", 0) : 0;
+    if (!std::isfinite(thickness) || thickness < 0) file.fail(where + ": thicknessFactor must not be negative");
+    if (m.transmission > 0 && !(thickness > 0)) m.flags |= material_thin;
+    if (!e || !(thickness > 0) || !e->Has("attenuationDistance")) return;
+    const double distance = number_of(*e, "attenuationDistance", 1);
+    if (!(distance > 0)) file.fail(where + ": attenuationDistance must be positive");
+    const vec3 color = glm::clamp(vector_of(*e, "attenuationColor", vec3(1)), vec3(least_attenuation), vec3(1));
+    m.absorption = -glm::log(color) / float(std::clamp(distance, 1e-9, 1e30));
+}
+
 void warn_about_ignored_textures(GltfFile& file, const tinygltf::Material& source, const std::string& where) {
     const auto* specular = extension_of(source.extensions, "KHR_materials_specular");
     if (specular && (specular->Has("specularTexture") || specular->Has("specularColorTexture")))
         file.warn(where + ": specular textures of KHR_materials_specular are ignored");
+    const auto* volume = extension_of(source.extensions, "KHR_materials_volume");
+    if (volume && volume->Has("thicknessTexture"))
+        file.warn(where + ": the thicknessTexture is ignored, the thickness is that of the mesh");
 }
 
 void read_textures(TextureLoader& loader, const tinygltf::Material& source, const std::string& where, Material& m) {
@@ -100,6 +120,7 @@ void load_materials(GltfFile& file, Scene& scene) {
         Material m = default_material();
         read_base(source, m);
         read_extensions(source, m);
+        read_volume(file, source, where, m);
         read_textures(loader, source, where, m);
         warn_about_ignored_textures(file, source, where);
         if (!std::isfinite(m.ior) || (m.ior != 0 && m.ior < 1)) file.fail(where + ": ior must be 0 or at least 1");
@@ -108,12 +129,6 @@ void load_materials(GltfFile& file, Scene& scene) {
         scene.materials.push_back(m);
         scene.material_names.push_back(source.name.empty() ? "material_" + std::to_string(i) : source.name);
     }
-}
-
-bool declares_volume(const GltfFile& file, int material) {
-    if (material < 0) return false;
-    const auto* e = extension_of(file.model.materials[size_t(material)].extensions, "KHR_materials_volume");
-    return e && number_of(*e, "thicknessFactor", 0) > 0;
 }
 
 VertexNeeds vertex_needs(const Scene& scene) {

@@ -12,9 +12,6 @@ void load_materials(GltfFile& file, Scene& scene);
 /// The material of a primitive that names none (glTF 2.0, section 3.9.1: white, metallic 1, roughness 1).
 Material default_material();
 
-/// True when the file itself says that the material bounds a volume (KHR_materials_volume, thicknessFactor > 0).
-bool declares_volume(const GltfFile& file, int material);
-
 /// Which optional vertex arrays the materials of a scene need.
 struct VertexNeeds {
     bool uv0 = false, uv1 = false, tangents = false;

@@ -172,30 +172,4 @@ LocalPrimitive decode_primitive(GltfFile& file, size_t mesh, size_t index, const
     return p;
 }
 
-bool is_watertight(const LocalPrimitive& primitive) {
-    // Vertices at the same position get the same number: their rank among the sorted positions.
-    const std::vector<vec3>& positions = primitive.positions;
-    const auto less = [](vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
-    std::vector<vec3> sorted = positions;
-    std::sort(sorted.begin(), sorted.end(), less);
-    const auto rank = [&](uint vertex) {
-        return uint64_t(std::lower_bound(sorted.begin(), sorted.end(), positions[vertex], less) - sorted.begin());
-    };
-    std::vector<uint64_t> edges;
-    for (uvec3 t : primitive.triangles) {
-        const uint64_t corner[3] = {rank(t.x), rank(t.y), rank(t.z)};
-        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
-        for (int c = 0; c < 3; ++c) {
-            const auto [low, high] = std::minmax(corner[c], corner[(c + 1) % 3]);
-            edges.push_back(low << 32 | high);
-        }
-    }
-    std::sort(edges.begin(), edges.end());
-    for (size_t i = 0; i < edges.size(); i += 2) {
-        if (i + 1 >= edges.size() || edges[i] != edges[i + 1]) return false;
-        if (i + 2 < edges.size() && edges[i + 2] == edges[i]) return false;
-    }
-    return !edges.empty();
-}
-
 }  // namespace lw

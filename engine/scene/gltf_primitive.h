@@ -21,7 +21,4 @@ struct LocalPrimitive {
 /// made where a normal map needs them. Points and lines give no triangles and a warning.
 LocalPrimitive decode_primitive(GltfFile& file, size_t mesh, size_t index, const Scene& scene);
 
-/// True when every edge, by exact position, is shared by exactly two triangles: the mesh encloses a volume.
-bool is_watertight(const LocalPrimitive& primitive);
-
 }  // namespace lw

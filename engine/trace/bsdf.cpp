@@ -8,55 +8,60 @@
 namespace lw {
 namespace {
 
+constexpr float least_share = 0.1f;  // of samples for the lobes of rough glass, whose Fresnel factor varies by facet
+
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
 /// The surface as one viewing direction sees it: normals on its side, and how often each lobe is sampled.
 struct Lobes {
-    vec3 n;             // shading normal towards the viewer
-    vec3 ng;            // geometric normal towards the viewer
-    bool entering;      // viewer on the front side
-    bool delta_mirror;  // GGX lobe so narrow that it is followed as a mirror
-    float nv;
-    vec3 mirror;      // reflectance of the specular lobe at normal `n`
-    vec3 refraction;  // weight of the transmission
+    vec3 n;            // shading normal towards the viewer
+    vec3 ng;           // geometric normal towards the viewer
+    bool inside;       // viewer inside a refracting volume
+    bool delta;        // reflection so narrow that it is followed as a mirror
+    bool delta_glass;  // transmission without spread
+    float nv, alpha;
+    float eta_view, eta_light;  // refractive indices before and behind
+    vec3 mirror;                // reflectance of the specular lobe at normal `n`
+    vec3 refraction;            // weight of the transmission at normal `n`
     float p_diffuse, p_glossy, p_transmit;
 };
 
-vec3 specular_reflectance(const SurfaceReader& reader, const Surface& s, float cosine) {
-    const float weight = reader.schlick_weight(cosine);
-    const vec3 f0 = reader.dielectric_f0(s);
-    const vec3 dielectric = f0 + (vec3(s.specular) - f0) * weight;
-    const vec3 metal = s.base_color + (vec3(1) - s.base_color) * weight;
-    return dielectric * (1 - s.metallic) + metal * s.metallic;
+vec3 specular_reflectance(const SurfaceReader& reader, const Surface& s, float cosine, bool inside) {
+    const vec3 metal = s.base_color + (vec3(1) - s.base_color) * reader.schlick_weight(cosine);
+    return reader.dielectric_fresnel(s, cosine, inside) * (1 - s.metallic) + metal * s.metallic;
 }
 
-/// Cosine of the refracted ray, or a negative number for total internal reflection.
-float refracted_cosine(float cosine, float eta) {
-    const float k = 1 - eta * eta * (1 - cosine * cosine);
-    return k > 0 ? std::sqrt(k) : -1.0f;
+void share_samples(const SurfaceReader& reader, const Surface& s, Lobes& l) {
+    float glossy = largest(l.mirror), transmit = largest(l.refraction);
+    const float opaque = reader.passed_by_fresnel(reader.dielectric_fresnel(s, l.nv, l.inside)) * (1 - s.transmission);
+    const float diffuse = largest(s.base_color) * std::max(opaque, 0.0f) * (1 - s.metallic);
+    if (!l.delta && s.transmission > 0 && s.metallic < 1) {
+        glossy = std::max(glossy, least_share);
+        transmit = std::max(transmit, least_share);
+    }
+    const float sum = diffuse + glossy + transmit;
+    if (!(sum > 0) || (s.flags & material_unlit)) return;
+    l.p_diffuse = diffuse / sum, l.p_glossy = glossy / sum, l.p_transmit = transmit / sum;
 }
 
 Lobes lobes_at(const SurfaceReader& reader, const Surface& s, vec3 to_view) {
     Lobes l{};
-    l.entering = dot(s.geometric_normal, to_view) >= 0;
-    const float side = l.entering ? 1.0f : -1.0f;
+    const bool front = dot(s.geometric_normal, to_view) >= 0;
+    const float side = front ? 1.0f : -1.0f;
     l.ng = s.geometric_normal * side;
     l.n = s.normal * side;
     if (dot(l.n, to_view) <= 1e-4f) l.n = l.ng;
     l.nv = std::max(dot(l.n, to_view), 1e-4f);
-    const bool thin = (s.flags & material_thin) != 0;
-    float cosine = l.nv;
-    if (s.transmission > 0 && !thin && !l.entering) cosine = refracted_cosine(l.nv, s.ior);  // Schlick from inside
-    const bool total = cosine < 0;
-    l.mirror = total ? vec3(1) : specular_reflectance(reader, s, cosine);
-    l.delta_mirror = s.roughness * s.roughness < smallest_alpha;
-    const float passing = total ? 0.0f : (1 - largest(l.mirror)) * (1 - s.metallic);
-    l.refraction = s.base_color * (passing * s.transmission);
-    const float diffuse = largest(s.base_color) * passing * (1 - s.transmission);
-    const float glossy = largest(l.mirror), transmit = largest(l.refraction);
-    const float sum = diffuse + glossy + transmit;
-    if (!(sum > 0) || (s.flags & material_unlit)) return l;
-    l.p_diffuse = diffuse / sum, l.p_glossy = glossy / sum, l.p_transmit = transmit / sum;
+    l.inside = !front && reader.refracts(s);
+    const float behind = reader.refracts(s) ? s.ior : 1.0f;
+    l.eta_view = l.inside ? behind : 1.0f;
+    l.eta_light = l.inside ? 1.0f : behind;
+    l.alpha = s.roughness * s.roughness;
+    l.delta = l.alpha < smallest_alpha;
+    l.delta_glass = reader.transmits_smoothly(s);
+    l.mirror = specular_reflectance(reader, s, l.nv, l.inside);
+    l.refraction = reader.transmitted_part(s, l.nv, l.inside);
+    share_samples(reader, s, l);
     return l;
 }
 
@@ -73,76 +78,121 @@ vec3 sample_visible_normal(vec3 view, float alpha, float u, float v) {
     return normalize(vec3(alpha * h.x, alpha * h.y, std::max(1e-6f, h.z)));
 }
 
-float visible_normal_pdf(float alpha, float nh, float nv) {
+/// D_v(h) / (v.h): the density of the visible normals without the cosine to the viewer.
+float visible_normal_density(float alpha, float nh, float nv) {
     const float a2 = alpha * alpha;
     const float t = nh * nh * (a2 - 1) + 1;
     const float d = a2 / (lw_pi * t * t);
     const float g1 = 2 * nv / (nv + std::sqrt(a2 + (1 - a2) * nv * nv));
-    return g1 * d / (4 * nv);  // of the reflected direction: D_v(h) / (4 v.h)
+    return g1 * d / nv;
 }
 
-float smooth_pdf(const Surface& s, const Lobes& l, vec3 to_view, vec3 to_light) {
+float reflected_pdf(const Lobes& l, vec3 h) {
+    return visible_normal_density(l.alpha, clamp(dot(l.n, h), 0.0f, 1.0f), l.nv) / 4;
+}
+
+/// Walter et al. 2007, equation 17.
+float refracted_pdf(const SurfaceReader& reader, const Lobes& l, vec3 to_view, vec3 to_light) {
+    const vec3 h = reader.refraction_half(l.n, to_view, to_light, l.eta_view, l.eta_light);
+    const float vh = dot(to_view, h), lh = -dot(to_light, h);
+    if (vh <= 0 || lh <= 0) return 0;
+    const float root = l.eta_view * vh - l.eta_light * lh;
+    const float density = visible_normal_density(l.alpha, clamp(dot(l.n, h), 0.0f, 1.0f), l.nv) * vh;
+    return density * l.eta_light * l.eta_light * lh / std::max(root * root, 1e-12f);
+}
+
+/// Density of `to_light` over all lobes that are not specular.
+float smooth_pdf(const SurfaceReader& reader, const Surface& s, const Lobes& l, vec3 to_view, vec3 to_light) {
     const float nl = dot(l.n, to_light);
-    if (nl <= 0) return 0;
-    float pdf = l.p_diffuse * nl / lw_pi;
-    if (l.p_glossy > 0 && !l.delta_mirror) {
-        const vec3 h = normalize(to_view + to_light);
-        pdf += l.p_glossy * visible_normal_pdf(s.roughness * s.roughness, clamp(dot(l.n, h), 0.0f, 1.0f), l.nv);
+    if (nl < 0) {
+        if (!(l.p_transmit > 0) || l.delta_glass) return 0;
+        if (s.flags & material_thin)
+            return l.p_transmit * reflected_pdf(l, normalize(to_view + to_light - 2 * nl * l.n));
+        return l.p_transmit * refracted_pdf(reader, l, to_view, to_light);
     }
+    float pdf = l.p_diffuse * nl / lw_pi;
+    if (l.p_glossy > 0 && !l.delta) pdf += l.p_glossy * reflected_pdf(l, normalize(to_view + to_light));
     return pdf;
 }
 
-Scatter transmit(const Surface& s, const Lobes& l, vec3 to_view, Rng& rng) {
-    const vec3 weight = l.refraction / l.p_transmit;
-    vec3 n = l.n;
-    if (!l.delta_mirror) {  // rough glass: a visible microfacet takes the place of the normal
-        const mat3 frame = frame_around(l.n);
-        const float u = rng.next(), v = rng.next();
-        n = frame * sample_visible_normal(to_view * frame, s.roughness * s.roughness, u, v);
-    }
+/// A direction of the transmission lobe about the facet normal `h`; nullopt when the facet reflects totally.
+std::optional<vec3> transmitted(const SurfaceReader& reader, const Surface& s, const Lobes& l, vec3 to_view, vec3 h) {
+    const float cosine = dot(h, to_view);
     if (s.flags & material_thin) {
-        const vec3 mirrored = 2 * dot(n, to_view) * n - to_view;
-        return {l.delta_mirror ? -to_view : mirrored - 2 * dot(mirrored, l.n) * l.n, weight, 0, true};
+        if (l.delta_glass) return -to_view;
+        const vec3 reflected = 2 * cosine * h - to_view;
+        if (dot(reflected, l.n) <= 0) return std::nullopt;
+        return reflected - 2 * dot(reflected, l.n) * l.n;
     }
-    const float eta = l.entering ? 1 / s.ior : s.ior;
-    const float cosine = dot(n, to_view), inside = refracted_cosine(cosine, eta);
-    if (inside < 0) return {2 * cosine * n - to_view, weight, 0, true};
-    return {normalize((eta * cosine - inside) * n - eta * to_view), weight, 0, true};
+    const float eta = l.eta_view / l.eta_light, behind = reader.refracted_cosine(cosine, eta);
+    if (behind < 0) return std::nullopt;
+    return normalize((eta * cosine - behind) * h - eta * to_view);
+}
+
+/// A mirror direction or one through smooth glass.
+std::optional<Scatter> sample_specular(const SurfaceReader& reader, const Surface& s, const Lobes& l, vec3 to_view,
+                                       bool through) {
+    if (!through) return Scatter{normalize(2 * l.nv * l.n - to_view), l.mirror / l.p_glossy, 0, true, false};
+    const std::optional<vec3> direction = transmitted(reader, s, l, to_view, l.n);
+    if (!direction) return std::nullopt;
+    const float index = l.eta_view / l.eta_light;  // radiance is smaller in the thinner medium
+    return Scatter{*direction, l.refraction * (index * index / l.p_transmit), 0, true, reader.passes_straight(s)};
+}
+
+std::optional<Scatter> sample_smooth(const SurfaceReader& reader, const Surface& s, const Lobes& l, vec3 to_view,
+                                     float choice, Rng& rng) {
+    const float u = rng.next(), v = rng.next();
+    const mat3 frame = frame_around(l.n);
+    std::optional<vec3> direction;
+    if (choice < l.p_transmit + l.p_glossy) {
+        const vec3 h = frame * sample_visible_normal(to_view * frame, l.alpha, u, v);
+        direction = choice < l.p_transmit ? transmitted(reader, s, l, to_view, h) : 2 * dot(h, to_view) * h - to_view;
+        if (!direction || (dot(*direction, l.n) < 0) != (choice < l.p_transmit)) return std::nullopt;
+    } else {
+        direction = frame * sample_cosine(u, v);
+    }
+    const float pdf = smooth_pdf(reader, s, l, to_view, *direction);
+    if (!(pdf > 0)) return std::nullopt;
+    const vec3 value = reader.eval_bsdf(s, l.n, to_view, *direction);
+    return Scatter{*direction, value * (std::abs(dot(l.n, *direction)) / pdf), pdf, false, false};
+}
+
+/// What a photon's weight has over that of a path from the eye (Veach 1997, equations 5.13 and 5.18).
+float adjoint_factor(const Lobes& l, vec3 to_view, vec3 direction) {
+    const bool through = dot(direction, l.ng) < 0;
+    const float index = through ? l.eta_light / l.eta_view : 1.0f;
+    const float shading = l.nv * std::abs(dot(direction, l.ng));
+    const float geometric = std::abs(dot(to_view, l.ng)) * std::abs(dot(direction, l.n));
+    return index * index * (geometric > 1e-6f ? shading / geometric : 1.0f);
 }
 
 }  // namespace
 
-std::optional<Scatter> sample_bsdf(const SurfaceReader& reader, const Surface& s, vec3 to_view, Rng& rng) {
+std::optional<Scatter> sample_bsdf(const SurfaceReader& reader, const Surface& s, vec3 to_view, Carries carries,
+                                   Rng& rng) {
     const Lobes l = lobes_at(reader, s, to_view);
     const float choice = rng.next();
     if (l.p_diffuse + l.p_glossy + l.p_transmit <= 0) return std::nullopt;
-    if (choice < l.p_transmit) return transmit(s, l, to_view, rng);
-    const float u = rng.next(), v = rng.next();
-    const mat3 frame = frame_around(l.n);
-    if (choice < l.p_transmit + l.p_glossy) {
-        if (l.delta_mirror) {
-            const vec3 direction = 2 * l.nv * l.n - to_view;
-            if (dot(direction, l.ng) <= 0) return std::nullopt;
-            return Scatter{normalize(direction), l.mirror / l.p_glossy, 0, true};
-        }
-        const vec3 h = frame * sample_visible_normal(to_view * frame, s.roughness * s.roughness, u, v);
-        const vec3 direction = 2 * dot(h, to_view) * h - to_view;
-        if (dot(direction, l.ng) <= 0 || dot(direction, l.n) <= 0) return std::nullopt;
-        const float pdf = smooth_pdf(s, l, to_view, direction);
-        if (!(pdf > 0)) return std::nullopt;
-        return Scatter{direction, reader.eval_brdf(s, l.n, to_view, direction, false) * (dot(l.n, direction) / pdf),
-                       pdf, false};
-    }
-    const vec3 direction = frame * sample_cosine(u, v);
-    if (dot(direction, l.ng) <= 0) return std::nullopt;
-    const float pdf = smooth_pdf(s, l, to_view, direction);
-    if (!(pdf > 0)) return std::nullopt;
-    return Scatter{direction, reader.eval_brdf(s, l.n, to_view, direction, false) * (dot(l.n, direction) / pdf), pdf,
-                   false};
+    const bool through = choice < l.p_transmit, glossy = !through && choice < l.p_transmit + l.p_glossy;
+    const bool specular = through ? l.delta_glass : glossy && l.delta;
+    std::optional<Scatter> next =
+        specular ? sample_specular(reader, s, l, to_view, through) : sample_smooth(reader, s, l, to_view, choice, rng);
+    if (!next || (dot(next->direction, l.ng) < 0) != through) return std::nullopt;  // no leaks at bent normals
+    if (carries == Carries::flux) next->weight *= adjoint_factor(l, to_view, next->direction);
+    return next;
 }
 
 float bsdf_pdf(const SurfaceReader& reader, const Surface& s, vec3 to_view, vec3 to_light) {
-    return smooth_pdf(s, lobes_at(reader, s, to_view), to_view, to_light);
+    return smooth_pdf(reader, s, lobes_at(reader, s, to_view), to_view, to_light);
+}
+
+vec3 absorption_before(const SurfaceReader& reader, const Surface& s, vec3 direction, vec3 medium) {
+    return reader.refracts(s) && dot(s.geometric_normal, direction) > 0 ? s.absorption : medium;
+}
+
+vec3 absorption_after(const SurfaceReader& reader, const Surface& s, vec3 direction, vec3 medium) {
+    if (!reader.refracts(s)) return medium;
+    return dot(s.geometric_normal, direction) < 0 ? s.absorption : vec3(0);
 }
 
 }  // namespace lw

@@ -49,7 +49,9 @@ Surface Emitters::point_of(const Light& light, float u, float v) const {
     const auto chosen = std::min(std::upper_bound(first, last, wanted, below), last - 1);
     const float start = chosen == first ? 0.0f : (chosen - 1)->area_below;
     const float within = clamp((wanted - start) / std::max(chosen->area_below - start, 1e-30f), 0.0f, 0.99999994f);
-    return surfaces_.surface_at(chosen->triangle, sample_triangle(within, v));
+    Surface s = surfaces_.surface_at(chosen->triangle, sample_triangle(within, v));
+    s.emissive *= surfaces_.opacity_at(chosen->triangle, s);  // holes do not glow
+    return s;
 }
 
 float Emitters::unit_flux(uint index) const {

@@ -16,57 +16,71 @@ float power_heuristic(float a, float b) { return a * a / (a * a + b * b); }
 
 }  // namespace
 
+/// A surface and the normals turned to where the path comes from.
+struct PathTracer::Vertex {
+    Vertex(const Surface& surface, vec3 towards) : s(surface), to_view(towards) {
+        const float side = dot(s.geometric_normal, to_view) < 0 ? -1.0f : 1.0f;
+        ng = s.geometric_normal * side;
+        n = s.normal * side;
+        if (dot(n, to_view) <= 1e-4f) n = ng;
+    }
+    const Surface& s;
+    vec3 to_view, n, ng;
+};
+
 PathTracer::PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> weights)
     : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), weights_(std::move(weights)) {}
 
-vec3 PathTracer::direct_from(uint light, const Surface& s, vec3 n, vec3 ng, vec3 to_view, Rng& rng) const {
+vec3 PathTracer::direct_from(uint light, const Vertex& at, Rng& rng) const {
     const float u = rng.next(), v = rng.next();
-    const std::optional<Incident> in = emitters_.arrive(light, s.position, u, v);
-    if (!in || dot(in->to_light, ng) <= 0) return vec3(0);
-    const float cosine = dot(in->to_light, n);
-    if (cosine <= 0) return vec3(0);
-    const vec3 f = surfaces_.eval_brdf(s, n, to_view, in->to_light, false);
+    const std::optional<Incident> in = emitters_.arrive(light, at.s.position, u, v);
+    if (!in) return vec3(0);
+    const float cosine = dot(in->to_light, at.n), side = dot(in->to_light, at.ng);
+    if (!(cosine * side > 0)) return vec3(0);
+    const vec3 f = surfaces_.eval_bsdf(at.s, at.n, at.to_view, in->to_light);
     if (f.x + f.y + f.z <= 0) return vec3(0);
-    const vec3 passed = caster_.transmittance(caster_.offset(s.position, ng), in->position);
-    vec3 light_in = weights_[light] * in->radiance * passed * f * cosine;
-    if (in->pdf > 0) light_in *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, s, to_view, in->to_light)) / in->pdf;
+    const vec3 start = caster_.offset(at.s.position, side > 0 ? at.ng : -at.ng);
+    const vec3 passed = caster_.transmittance(start, in->position);
+    vec3 light_in = weights_[light] * in->radiance * passed * f * std::abs(cosine);
+    if (in->pdf > 0)
+        light_in *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, at.s, at.to_view, in->to_light)) / in->pdf;
     return light_in;
 }
 
-vec3 PathTracer::direct(const Surface& s, vec3 n, vec3 ng, vec3 to_view, bool all_lamps, Rng& rng) const {
+vec3 PathTracer::direct(const Vertex& at, bool all_lamps, Rng& rng) const {
     const auto count = uint(scene_.lights.size());
     if (!all_lamps && count > 1) {
         const uint chosen = std::min(uint(rng.next() * float(count)), count - 1);
-        return direct_from(chosen, s, n, ng, to_view, rng) * float(count);
+        return direct_from(chosen, at, rng) * float(count);
     }
     vec3 sum(0);
-    for (uint light = 0; light < count; ++light) sum += direct_from(light, s, n, ng, to_view, rng);
+    for (uint light = 0; light < count; ++light) sum += direct_from(light, at, rng);
     return sum;
 }
 
-vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, Rng& rng) const {
-    vec3 sum(0), throughput(1);
+vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, const Caustics* caustics, Rng& rng) const {
+    vec3 sum(0), throughput(1), medium(0);
+    float distance = 0;  // since the last vertex that light sampling covers
     for (int depth = 0; depth < longest_path; ++depth) {
-        const std::optional<Hit> hit = caster_.nearest(origin, direction);
+        const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
         if (!hit) break;
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
-        const vec3 to_view = -direction;
+        const Vertex at(s, -direction);
+        throughput *= surfaces_.passed_by_medium(absorption_before(surfaces_, s, direction, medium), hit->distance);
+        distance += hit->distance;
         if (s.flags & material_unlit) {
             if (first && depth == 0) sum += s.base_color;
             break;
         }
         if (s.light >= 0) {
-            const vec3 emitted = emitters_.radiance(s, to_view) * weights_[size_t(s.light)];
-            const float mis = pdf > 0 ? power_heuristic(pdf, emitters_.arrive_pdf(s, hit->distance, direction)) : 1.0f;
+            const vec3 emitted = emitters_.radiance(s, at.to_view) * weights_[size_t(s.light)];
+            const float mis = pdf > 0 ? power_heuristic(pdf, emitters_.arrive_pdf(s, distance, direction)) : 1.0f;
             sum += throughput * emitted * mis;
         }
-        const float side = dot(s.geometric_normal, to_view) < 0 ? -1.0f : 1.0f;
-        const vec3 ng = s.geometric_normal * side;
-        vec3 n = s.normal * side;
-        if (dot(n, to_view) <= 1e-4f) n = ng;
-        sum += throughput * direct(s, n, ng, to_view, depth == 0, rng);
+        sum += throughput * direct(at, depth == 0, rng);
+        if (caustics) sum += throughput * caustics->reflected(surfaces_, s, at.n, at.ng, at.to_view);
 
-        const std::optional<Scatter> next = sample_bsdf(surfaces_, s, to_view, rng);
+        const std::optional<Scatter> next = sample_bsdf(surfaces_, s, at.to_view, Carries::radiance, rng);
         if (!next) break;
         throughput *= next->weight;
         if (depth >= depth_of_roulette) {
@@ -75,19 +89,23 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, Rng&
             throughput /= survival;
         }
         direction = next->direction;
+        medium = absorption_after(surfaces_, s, direction, medium);
+        origin = caster_.offset(s.position, dot(direction, at.ng) > 0 ? at.ng : -at.ng);
+        // A sheet that is passed straight on is no vertex: light sampling at the last one reaches through it.
+        if (next->straight) continue;
         pdf = next->specular ? 0.0f : next->pdf;
-        origin = caster_.offset(s.position, dot(direction, ng) > 0 ? ng : -ng);
+        distance = 0;
         // Light sampling at the next vertex covers one lamp in `count`; its pdf is only that of the choice of a point
         // because direct() multiplies by `count`: both strategies stay unbiased with the point pdf in the heuristic.
     }
     return sum;
 }
 
-vec3 PathTracer::radiance(vec3 origin, vec3 direction, Rng& rng) const {
-    return follow(origin, direction, 0, true, rng);
+vec3 PathTracer::radiance(vec3 origin, vec3 direction, Rng& rng, const Caustics* caustics) const {
+    return follow(origin, direction, 0, true, caustics, rng);
 }
 
-vec3 PathTracer::irradiance(vec3 point, vec3 normal, Rng& rng) const {
+vec3 PathTracer::irradiance(vec3 point, vec3 normal, Rng& rng, const Caustics* caustics) const {
     Surface white{};
     white.position = point;
     white.geometric_normal = white.normal = normal;
@@ -95,12 +113,13 @@ vec3 PathTracer::irradiance(vec3 point, vec3 normal, Rng& rng) const {
     white.roughness = 1;
     white.ior = 1.5f;
     white.light = -1;
-    const vec3 from_lamps = direct(white, normal, normal, normal, true, rng) * lw_pi;
+    vec3 sum = direct(Vertex(white, normal), true, rng) * lw_pi;
+    if (caustics) sum += caustics->irradiance(point, normal);
     const float u = rng.next(), v = rng.next();
     const vec3 direction = frame_around(normal) * sample_cosine(u, v);
     const float pdf = std::max(dot(direction, normal), 0.0f) / lw_pi;
-    if (!(pdf > 0)) return from_lamps;
-    return from_lamps + lw_pi * follow(caster_.offset(point, normal), direction, pdf, false, rng);
+    if (!(pdf > 0)) return sum;
+    return sum + lw_pi * follow(caster_.offset(point, normal), direction, pdf, false, caustics, rng);
 }
 
 }  // namespace lw

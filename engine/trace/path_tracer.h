@@ -1,9 +1,11 @@
 // The reference: unbiased radiance and illuminance by path tracing with light sampling and multiple importance
-// sampling (Veach 1997), from the same scene, lamps and BRDF as the photons, but none of their estimators.
+// sampling (Veach 1997), from the same scene, lamps and BSDF as the photons, but none of their estimators.
+// Light of points and suns by way of mirrors and lenses, which no path from the eye finds, comes from trace/caustics.
 #pragma once
 #include <vector>
 
 #include "base/random.h"
+#include "trace/caustics.h"
 #include "trace/emitter.h"
 #include "trace/ray_caster.h"
 
@@ -14,16 +16,18 @@ class PathTracer {
     /// `weights`: RGB power of each lamp (light_weights()). All references must outlive the tracer.
     PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> weights);
 
-    /// One unbiased sample of the radiance arriving at `origin` from `direction`, cd/m2 per RGB.
-    vec3 radiance(vec3 origin, vec3 direction, Rng& rng) const;
+    /// One sample of the radiance arriving at `origin` from `direction`, cd/m2 per RGB. Unbiased, but for the caustics
+    /// of points and suns: left out without `caustics`, blurred over their radius with them.
+    vec3 radiance(vec3 origin, vec3 direction, Rng& rng, const Caustics* caustics = nullptr) const;
 
-    /// One unbiased sample of the irradiance at `point` on the side of unit `normal`, lux per RGB.
-    vec3 irradiance(vec3 point, vec3 normal, Rng& rng) const;
+    /// One sample of the irradiance at `point` on the side of unit `normal`, lux per RGB; caustics as above.
+    vec3 irradiance(vec3 point, vec3 normal, Rng& rng, const Caustics* caustics = nullptr) const;
 
   private:
-    vec3 direct(const Surface& s, vec3 n, vec3 ng, vec3 to_view, bool all_lamps, Rng& rng) const;
-    vec3 direct_from(uint light, const Surface& s, vec3 n, vec3 ng, vec3 to_view, Rng& rng) const;
-    vec3 follow(vec3 origin, vec3 direction, float bsdf_pdf, bool first, Rng& rng) const;
+    struct Vertex;
+    vec3 direct(const Vertex& at, bool all_lamps, Rng& rng) const;
+    vec3 direct_from(uint light, const Vertex& at, Rng& rng) const;
+    vec3 follow(vec3 origin, vec3 direction, float bsdf_pdf, bool first, const Caustics* caustics, Rng& rng) const;
 
     const Scene& scene_;
     const RayCaster& caster_;

@@ -10,10 +10,11 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/random.h"
 
 namespace lw {
 namespace {
+
+constexpr int most_layers = 256;  // of holes and glass along a ray
 
 RTCScene as_scene(void* handle) { return static_cast<RTCScene>(handle); }
 
@@ -75,7 +76,7 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), surfaces_(scene) {
     epsilon_ = scene.ray_epsilon();
     for (const Material& m : scene.materials) {
         has_holes_ |= (m.flags & (material_alpha_mask | material_alpha_blend)) != 0;
-        has_thin_glass_ |= (m.flags & material_thin) != 0 && m.transmission > 0;
+        has_thin_glass_ |= (m.flags & material_thin) != 0;
     }
 }
 
@@ -93,25 +94,38 @@ std::optional<Hit> RayCaster::nearest_triangle(vec3 origin, vec3 direction, floa
     return Hit{query.hit.primID, {query.hit.u, query.hit.v}, query.ray.tfar};
 }
 
-bool RayCaster::is_hole(const Hit& hit) const {
-    const Material& m = scene_.material_of(hit.triangle);
-    if (!(m.flags & (material_alpha_mask | material_alpha_blend))) return false;
-    const Surface s = surfaces_.surface_at(hit.triangle, hit.barycentrics);
-    if (m.flags & material_alpha_mask) return s.alpha < m.alpha_cutoff;
-    const uint64_t place = (uint64_t(floatBitsToUint(hit.barycentrics.x)) << 32) | floatBitsToUint(hit.barycentrics.y);
-    return to_unit_float(uint32_t(mix64(place ^ hit.triangle) >> 32)) >= s.alpha;
+float RayCaster::opacity(const Hit& hit) const {
+    if (!(scene_.material_of(hit.triangle).flags & (material_alpha_mask | material_alpha_blend))) return 1;
+    return surfaces_.opacity_at(hit.triangle, surfaces_.surface_at(hit.triangle, hit.barycentrics));
 }
 
-std::optional<Hit> RayCaster::nearest(vec3 origin, vec3 direction, float max_distance) const {
+/// `number(hit)` in [0, 1) decides at surfaces that are partly there.
+template <class Choose>
+std::optional<Hit> RayCaster::nearest_chosen(vec3 origin, vec3 direction, float max_distance,
+                                             const Choose& number) const {
     std::optional<Hit> hit = nearest_triangle(origin, direction, max_distance);
     if (!has_holes_) return hit;
     float passed = 0;
-    for (int layers = 0; hit && is_hole(*hit) && layers < 256; ++layers) {
+    for (int layers = 0; hit && layers < most_layers; ++layers) {
+        const float there = opacity(*hit);
+        if (there >= 1 || (there > 0 && number(*hit) < there)) break;
         passed += hit->distance + epsilon_;
         hit = nearest_triangle(origin + direction * passed, direction, max_distance - passed);
     }
     if (hit) hit->distance += passed;
     return hit;
+}
+
+std::optional<Hit> RayCaster::nearest(vec3 origin, vec3 direction, float max_distance) const {
+    return nearest_chosen(origin, direction, max_distance, [](const Hit& hit) {
+        const vec2 b = hit.barycentrics;
+        const uint64_t place = (uint64_t(floatBitsToUint(b.x)) << 32) | floatBitsToUint(b.y);
+        return to_unit_float(uint32_t(mix64(place ^ hit.triangle) >> 32));
+    });
+}
+
+std::optional<Hit> RayCaster::nearest(vec3 origin, vec3 direction, Rng& rng) const {
+    return nearest_chosen(origin, direction, 1e30f, [&](const Hit&) { return rng.next(); });
 }
 
 vec3 RayCaster::transmittance(vec3 from, vec3 to) const {
@@ -127,12 +141,11 @@ vec3 RayCaster::transmittance(vec3 from, vec3 to) const {
     }
     vec3 passed_fraction(1);
     float passed = 0;
-    for (int layers = 0; layers < 256; ++layers) {
-        const std::optional<Hit> hit = nearest(from + direction * passed, direction, far - passed);
+    for (int layers = 0; layers < most_layers; ++layers) {
+        const std::optional<Hit> hit = nearest_triangle(from + direction * passed, direction, far - passed);
         if (!hit) return passed_fraction;
-        const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
-        if (!(s.flags & material_thin) || s.transmission <= 0) return vec3(0);
-        passed_fraction *= surfaces_.thin_transmittance(s, abs(dot(s.normal, direction)));
+        passed_fraction *= surfaces_.passed_by(hit->triangle, hit->barycentrics, direction);
+        if (std::max({passed_fraction.x, passed_fraction.y, passed_fraction.z}) <= 0) return vec3(0);
         passed += hit->distance + epsilon_;
         if (passed >= far) return passed_fraction;
     }

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "base/random.h"
 #include "scene/scene.h"
 #include "scene/surface.h"
 
@@ -22,10 +23,15 @@ class RayCaster {
     RayCaster(const RayCaster&) = delete;
     RayCaster& operator=(const RayCaster&) = delete;
 
-    /// Nearest surface along a unit direction; alpha-masked holes are passed, blended surfaces by coverage.
+    /// Nearest surface along a unit direction; alpha-masked holes are passed, blended surfaces by coverage: always the
+    /// same way at the same place.
     std::optional<Hit> nearest(vec3 origin, vec3 direction, float max_distance = 1e30f) const;
 
-    /// Fraction of light (per RGB) that passes between two points: 0 when blocked, the tint of thin glass otherwise.
+    /// The same, but a blended surface is met with the probability of its alpha: for paths, whose mean counts.
+    std::optional<Hit> nearest(vec3 origin, vec3 direction, Rng& rng) const;
+
+    /// Fraction of light (per RGB) that passes between two points, by the rule of passed_by() in shaders/bsdf.glsl: 0
+    /// when blocked, the tint of thin smooth glass, 1 - alpha of blends.
     vec3 transmittance(vec3 from, vec3 to) const;
 
     /// `point` moved off its surface along `normal` by a few units of float precision of the scene.
@@ -34,15 +40,17 @@ class RayCaster {
 
   private:
     std::optional<Hit> nearest_triangle(vec3 origin, vec3 direction, float max_distance) const;
-    bool is_hole(const Hit& hit) const;
+    float opacity(const Hit& hit) const;
+    template <class Choose>
+    std::optional<Hit> nearest_chosen(vec3 origin, vec3 direction, float max_distance, const Choose& number) const;
 
     const Scene& scene_;
     SurfaceReader surfaces_;
     void* device_ = nullptr;
     void* embree_scene_ = nullptr;
     float epsilon_ = 0;
-    bool has_holes_ = false;  // alpha masks or blends
-    bool has_thin_glass_ = false;
+    bool has_holes_ = false;       // alpha masks or blends
+    bool has_thin_glass_ = false;  // that shadow rays may pass
 };
 
 /// Closest point of triangle (a, b, c) to p, also for degenerate triangles (Ericson 2005, section 5.1.5).

@@ -75,6 +75,23 @@ Image to_image(const std::vector<PixelSum>& pixels, uint64_t n, const ReferenceS
     return image;
 }
 
+/// The radii over which caustic light is spread fall so that blur and noise vanish together (Knaus & Zwicker 2011).
+class CausticRadii {
+  public:
+    explicit CausticRadii(float first) : r2_(double(first) * double(first)) {}
+    float next() {
+        const double r2 = r2_;
+        ++samples_, sum_ += r2;
+        r2_ *= (double(samples_) + 2.0 / 3) / (double(samples_) + 1);
+        return float(std::sqrt(r2));
+    }
+    float mean() const { return samples_ ? float(std::sqrt(sum_ / double(samples_))) : 0; }
+
+  private:
+    double r2_, sum_ = 0;
+    uint64_t samples_ = 0;
+};
+
 }  // namespace
 
 Reference render_reference(const Scene& scene, const RayCaster& caster, const Camera& camera,
@@ -100,17 +117,24 @@ Reference render_reference(const Scene& scene, const RayCaster& caster, const Ca
     const auto start = std::chrono::steady_clock::now();
     Progress progress("reference", settings.samples * count);
     Reference result;
+    const bool with_caustics = settings.caustic_paths > 0 && has_caustics(scene, weights);
+    CausticRadii radii(settings.caustic_radius > 0 ? settings.caustic_radius : 0.004f * scene.size());
+    std::optional<Caustics> caustics;
     while (result.samples < settings.samples) {
-        const uint64_t pass = std::min<uint64_t>(settings.samples - result.samples,
-                                                 std::max<uint64_t>(1, std::min<uint64_t>(result.samples, 16)));
+        const uint64_t most = with_caustics ? 1 : std::max<uint64_t>(1, std::min<uint64_t>(result.samples, 16));
+        const uint64_t pass = std::min<uint64_t>(settings.samples - result.samples, most);
+        if (with_caustics)
+            caustics.emplace(scene, caster, weights,
+                             CausticSettings{settings.caustic_paths, radii.next(), settings.seed, result.samples});
+        const Caustics* light = caustics ? &*caustics : nullptr;
         parallel_for(size_t(settings.height), [&](size_t row) {
             for (size_t i = row * size_t(settings.width); i < (row + 1) * size_t(settings.width); ++i)
                 for (uint64_t n = result.samples; n < result.samples + pass; ++n) {
                     Rng rng(settings.seed, i, n);
-                    const vec3 radiance = tracer.radiance(camera.position, first[i].direction, rng);
+                    const vec3 radiance = tracer.radiance(camera.position, first[i].direction, rng, light);
                     double lux = 0;
                     if (settings.illuminance && first[i].hit)
-                        lux = luminance(tracer.irradiance(first[i].surface.position, first[i].normal, rng));
+                        lux = luminance(tracer.irradiance(first[i].surface.position, first[i].normal, rng, light));
                     pixels[i].add({double(radiance.x), double(radiance.y), double(radiance.z), lux}, n + 1);
                 }
             progress.step(pass * uint64_t(settings.width));
@@ -121,6 +145,7 @@ Reference render_reference(const Scene& scene, const RayCaster& caster, const Ca
         if (settings.seconds > 0 && seconds >= settings.seconds) break;
         if (settings.error > 0 && result.samples >= 16 && result.relative_error <= settings.error) break;
     }
+    result.caustic_radius = radii.mean();
     result.image = to_image(pixels, result.samples, settings);
     write_first_hits(first, camera, result.image);
     return result;

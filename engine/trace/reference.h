@@ -15,6 +15,8 @@ struct ReferenceSettings {
     double error = 0;
     bool illuminance = true;  // a second path per sample measures lux at the first surface
     uint64_t seed = 1;
+    uint64_t caustic_paths = 200'000;  // from the lamps, per sample, in scenes that need them; 0 leaves caustics out
+    float caustic_radius = 0;          // m, over which the first sample spreads them; 0: 0.4 % of the scene's size
 };
 
 struct Reference {
@@ -22,6 +24,7 @@ struct Reference {
                   // error.illuminance
     uint64_t samples = 0;
     double relative_error = 0;
+    float caustic_radius = 0;  // m, root mean square over the samples: the blur of caustics; 0 without any
 };
 
 /// Renders through pixel centres, as the gather does, so that pictures can be compared pixel by pixel.

@@ -19,6 +19,7 @@ const std::map<std::string, Names> allowed_folders = {
     {"image", {"base"}},
     {"scene", {"base", "image"}},
     {"trace", {"base", "image", "scene"}},
+    {"measure", {"base", "image", "scene", "trace"}},
     {"photons", {"base", "scene", "trace"}},
     {"maps", {"base", "scene", "photons", "trace"}},
     {"file", {"base", "scene", "maps"}},

@@ -117,6 +117,29 @@ TEST_F(MapFile, SignedMapsThatLeadOutOfTheirArraysAreRefused) {
     refused([](PhotonMap& m) { m.cell_starts[0] = 1, m.cell_starts[1] = std::max(m.cell_starts[1], 1u); });
     refused([](PhotonMap& m) { m.irradiance_scale = 0; });
     refused([](PhotonMap& m) { m.flux_scale = -1; });
+    refused([](PhotonMap& m) { m.caustic_grids = 1; });
+    refused([](PhotonMap& m) { m.caustic_grids = uint(m.grids.size()) + 1; });
+}
+
+TEST_F(MapFile, WithCausticsRoundTripsAndIsRefusedWhenTheirGridsAreMixedUp) {
+    const Scene glass = load_gltf(LUMENWALK_SOURCE_DIR "/data/glass_sphere.gltf");
+    const RayCaster caster(glass);
+    const PhotonMap good = build_photon_map(glass, caster, shoot_photons(glass, caster, {5000, 1}), {5000, 0, 60, 1});
+    ASSERT_GT(good.caustic_grids, 0u);
+    save_photon_map(path, good);
+    const PhotonMap got = load_photon_map(path, glass);
+    EXPECT_EQ(got.caustic_grids, good.caustic_grids);
+    EXPECT_EQ(got.triangle_maps, good.triangle_maps);
+    const auto refused = [&](const auto& damage) {
+        PhotonMap bad = good;
+        damage(bad);
+        save_photon_map(path, bad);
+        EXPECT_THROW(load_photon_map(path, glass), Error);
+    };
+    refused([](PhotonMap& m) { --m.caustic_grids; });
+    refused([](PhotonMap& m) { m.triangle_maps[0] = uint(m.grids.size()) - 1; });
+    refused([](PhotonMap& m) { m.triangle_maps.back() = 0; });
+    refused([](PhotonMap& m) { m.triangle_maps.resize(m.triangle_maps.size() / 2); });
 }
 
 TEST_F(MapFile, SignedGridsThatLeadOutOfTheirArraysAreRefused) {

@@ -82,6 +82,13 @@ TEST(Agreement, ShaderEqualsCpuEstimateInTheFurnishedRoom) {
     expect_same(baked, 2, 96, 54);
 }
 
+TEST(Agreement, ShaderEqualsCpuEstimateOfCaustics) {
+    const Baked baked("glass_sphere.gltf", 200000);
+    ASSERT_GT(baked.map.caustic_grids, 0u);
+    expect_same(baked, 1, 64, 48);
+    expect_same(baked, 2, 64, 48);
+}
+
 /// True when the pixels around (x, y) lie on one plane, so that no kernel there crosses a border.
 bool is_interior(const Image& image, int x, int y, int reach) {
     const auto& nx = image.find("normal.X")->values;

@@ -29,15 +29,14 @@ void expect_near(vec4 a, vec4 b) {
     for (int c = 0; c < 4; ++c) EXPECT_NEAR(a[c], b[c], 1e-6f) << c;
 }
 
-/// A glass cube or, without its last face, an open glass box.
-GltfText glass(bool closed) {
+/// A closed glass tetrahedron, with KHR_materials_volume unless that is empty.
+GltfText glass(const Json& volume) {
     GltfText g;
     g.floats("POSITION", {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
-    std::vector<uint8_t> faces{0, 2, 1, 0, 1, 3, 1, 2, 3};
-    if (closed) faces.insert(faces.end(), {0, 3, 2});
-    g.primitive()["indices"] = g.accessor(faces, "SCALAR", 5121);
+    g.primitive()["indices"] = g.accessor(std::vector<uint8_t>{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}, "SCALAR", 5121);
     g.primitive()["material"] = 0;
     g.doc["materials"] = {{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}}};
+    if (!volume.empty()) g.doc["materials"][0]["extensions"]["KHR_materials_volume"] = volume;
     return g;
 }
 
@@ -72,23 +71,32 @@ TEST(GltfMaterials, FactorsAndExtensions) {
     EXPECT_EQ(m.flags, material_double_sided | material_alpha_mask);
 }
 
-TEST(GltfMaterials, GlassIsThinUnlessClosed) {
-    EXPECT_TRUE(glass(false).load().materials[0].flags & material_thin);
-    EXPECT_FALSE(glass(true).load().materials[0].flags & material_thin);
-    GltfText declared = glass(false);
-    declared.doc["materials"][0]["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0.1;
-    EXPECT_FALSE(declared.load().materials[0].flags & material_thin);
+TEST(GltfMaterials, GlassIsThinUnlessItHasAThickness) {
+    EXPECT_TRUE(glass({}).load().materials[0].flags & material_thin);
+    EXPECT_TRUE(glass({{"thicknessFactor", 0}, {"attenuationDistance", 1}}).load().materials[0].flags & material_thin);
+    EXPECT_FALSE(glass({{"thicknessFactor", 0.1}}).load().materials[0].flags & material_thin);
 }
 
-TEST(GltfMaterials, GlassThatIsBothThinAndSolidIsTwoMaterials) {
-    GltfText g = glass(true);
-    const int open = g.accessor(std::vector<uint8_t>{0, 2, 1}, "SCALAR", 5121);
-    g.doc["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"indices", open}, {"material", 0}});
-    const Scene s = g.load();
-    ASSERT_EQ(s.materials.size(), 2u);
-    EXPECT_NE(s.objects[0].material, s.objects[1].material);
-    EXPECT_FALSE(s.materials[s.objects[0].material].flags & material_thin);
-    EXPECT_TRUE(s.materials[s.objects[1].material].flags & material_thin);
+TEST(GltfMaterials, AbsorptionGivesTheAttenuationColourAtItsDistance) {
+    const Json volume = {{"thicknessFactor", 1}, {"attenuationDistance", 0.5}, {"attenuationColor", {0.25, 1, 0}}};
+    const vec3 a = glass(volume).load().materials[0].absorption;
+    EXPECT_NEAR(std::exp(-a.x * 0.5f), 0.25f, 1e-6f);
+    EXPECT_EQ(a.y, 0);
+    EXPECT_GT(a.z, 20);
+    EXPECT_TRUE(std::isfinite(a.z));
+    EXPECT_EQ(glass({{"thicknessFactor", 1}}).load().materials[0].absorption, vec3(0));
+    EXPECT_EQ(glass({{"thicknessFactor", 0}, {"attenuationDistance", 0.1}, {"attenuationColor", {0, 0, 0}}})
+                  .load()
+                  .materials[0]
+                  .absorption,
+              vec3(0));
+}
+
+TEST(GltfMaterials, AVolumeThatMakesNoSenseIsRefused) {
+    const auto refusal = [](const Json& volume) { return error_of([&] { glass(volume).load(); }); };
+    EXPECT_NE(refusal({{"thicknessFactor", 1}, {"attenuationDistance", 0}}).find("attenuationDistance"),
+              std::string::npos);
+    EXPECT_NE(refusal({{"thicknessFactor", -1}}).find("thicknessFactor"), std::string::npos);
 }
 
 TEST(GltfMaterials, VertexColoursAreLinearAndOpaqueByDefault) {

@@ -33,7 +33,7 @@ double chi_square(const SurfaceReader& reader, const Surface& s, vec3 view, int&
     std::array<double, rows * columns> counted{}, expected{};
     Rng rng(7, 1, 0);
     for (int i = 0; i < samples; ++i) {
-        const auto scatter = sample_bsdf(reader, s, view, rng);
+        const auto scatter = sample_bsdf(reader, s, view, Carries::radiance, rng);
         if (!scatter || scatter->specular) continue;
         const int row = std::min(int(scatter->direction.z * rows), rows - 1);
         const double phi = std::atan2(double(scatter->direction.y), double(scatter->direction.x)) / (2 * M_PI) + 0.5;
@@ -81,7 +81,8 @@ TEST(Sampling, WeightsOfTheBsdfIntegrateItsAlbedo) {
         constexpr int n = 200000, side = 400;
         Rng rng(3, 1, 0);
         for (int i = 0; i < n; ++i)
-            if (const auto scatter = sample_bsdf(reader, s, view, rng)) sampled += double(scatter->weight.x) / n;
+            if (const auto scatter = sample_bsdf(reader, s, view, Carries::radiance, rng))
+                sampled += double(scatter->weight.x) / n;
         for (int r = 0; r < side; ++r)
             for (int c = 0; c < side; ++c) {
                 const vec3 d = direction_of((float(r) + 0.5f) / side, (float(c) + 0.5f) / side);

@@ -97,9 +97,8 @@ Row measure_maps(const Subject& subject, const PhotonEstimator& estimator) {
     const MapGridSearch grids(subject.baked.map);
     return measure_on_cpu(subject, "triangle maps, photons hold all light", grids,
                           [&](uint i, float kernel, const VisiblePoint& p, Gathered& sum) {
-                              estimator.add_photon(i, estimator.photon_place(i),
-                                                   kernel / subject.baked.map.flux_scale, p.surface,
-                                                   p.geometric_normal, p.shading_normal, p.to_view, sum);
+                              estimator.add_photon(i, estimator.photon_place(i), kernel / subject.baked.map.flux_scale,
+                                                   p.surface, p.geometric_normal, p.shading_normal, p.to_view, sum);
                           });
 }
 

@@ -1,0 +1,36 @@
+// The light of lamps that one view ray meets by way of mirroring and glossy surfaces, by lamp and first surface.
+#pragma once
+#include <map>
+#include <span>
+#include <utility>
+
+#include "trace/emitter.h"
+#include "trace/ray_caster.h"
+
+namespace lw {
+
+/// Luminance in cd/m2 by (lamp, object).
+using MirroredLight = std::map<std::pair<uint, uint>, double>;
+
+/// Follows view rays. All references must outlive it. Thread-safe.
+class MirrorTracer {
+  public:
+    MirrorTracer(const Scene& scene, const RayCaster& caster, std::span<const vec3> weights)
+        : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), weights_(weights) {}
+
+    /// Adds `share` of what the ray brings: what each sheet of thin glass on its way reflects, and the surface behind.
+    void add(vec3 origin, vec3 direction, double share, Rng& rng, MirroredLight& light) const;
+
+  private:
+    void reflect(const Surface& first, uint object, vec3 to_view, vec3 part, Rng& rng, MirroredLight& light) const;
+    void add_lamps(const Surface& s, vec3 n, vec3 to_view, vec3 part, uint object, Rng& rng,
+                   MirroredLight& light) const;
+
+    const Scene& scene_;
+    const RayCaster& caster_;
+    SurfaceReader surfaces_;
+    Emitters emitters_;
+    std::span<const vec3> weights_;
+};
+
+}  // namespace lw

@@ -1,0 +1,61 @@
+// Inappropriate reflections: bright patches of a view in which a mirroring or glossy surface shows a lamp. In: scene,
+// rays, camera, RGB power of each lamp. Out: each patch with its lamp, its object and its glare, by decreasing glare.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measure/glare.h"
+
+namespace lw {
+
+/// What a patch must exceed to be reported.
+struct ReflectionLimits {
+    double luminance = 500;     // cd/m2 of the mirrored lamp
+    double ratio = 3;           // of the patch to its surroundings
+    double solid_angle = 2e-5;  // sr: a square of a quarter of a degree
+};
+
+struct ReflectionSettings {
+    int width = 320, height = 180;  // pixels looked at
+    uint samples = 16;              // rays per pixel
+    uint64_t seed = 1;
+    ReflectionLimits limits;
+};
+
+/// A connected region of pixels in which one object shows one lamp.
+struct Reflection {
+    uint lamp = 0;
+    uint object = 0;            // the first surface that reflects it, an index into scene.objects
+    double luminance = 0;       // cd/m2, mean of the patch with its surroundings' luminance under it
+    double peak = 0;            // cd/m2 of the brightest pixel
+    double surroundings = 0;    // cd/m2, mean around the patch
+    double solid_angle = 0;     // sr
+    double position_index = 1;  // Guth
+    double glare = 0;           // L2 omega / p2
+    float x = 0, y = 0;         // middle, pixels from the top left corner
+    std::vector<uint> pixels;   // row * width + column
+    double ratio() const { return surroundings > 0 ? luminance / surroundings : 1e9; }
+};
+
+struct ReflectionReport {
+    int width = 0, height = 0;
+    std::vector<Reflection> found;
+    double background = 0;  // cd/m2
+    double ugr_lamps = 0;   // of the lamps in view alone
+    double ugr = 0;         // with the reflections that were found
+};
+
+/// Looks for reflections of emissive lamps, and of point and spot lamps in rough gloss, by way of up to four surfaces,
+/// through thin glass too. Mirror images of point lamps have no size and are not found. Deterministic.
+ReflectionReport find_reflections(const Scene& scene, const RayCaster& caster, const Camera& camera,
+                                  std::span<const vec3> weights, const ReflectionSettings& settings);
+
+/// "window mirrors desk_2: 8400 cd/m2, 14x its surroundings".
+std::string describe(const Scene& scene, const Reflection& reflection);
+
+/// One line per reflection, with a header. Throws Error when the file cannot be written.
+void write_reflections(const std::filesystem::path& path, const Scene& scene, const ReflectionReport& report);
+
+}  // namespace lw
