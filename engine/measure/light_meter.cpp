@@ -1,0 +1,282 @@
+#include "measure/light_meter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "image/tonemap.h"
+#include "maps/coverage.h"
+#include "maps/estimate.h"
+#include "trace/bsdf.h"
+#include "trace/emitter.h"
+#include "trace/sampling.h"
+
+namespace lw {
+namespace {
+
+constexpr int longest_path = 64;
+constexpr float blocked_within = 0.02f;       // m
+constexpr float narrowest_direct_roughness = 0.1f;  // a mirror-like coat shows lamps a little widened
+
+/// What each photon brings to the sensor at hand, lux at the file's powers: the spread of the whole sum.
+struct PhotonShares {
+    explicit PhotonShares(size_t references) : lux(references, 0) {}
+    void add(uint reference, float value) {
+        if (!(value > 0)) return;
+        if (lux[reference] == 0) touched.push_back(reference);
+        lux[reference] += value;
+    }
+    std::vector<float> lux;
+    std::vector<uint> touched;
+};
+
+/// A ray to the surroundings and what it brought so far.
+struct Gathering {
+    vec3 throughput;         // lux per radiance and RGB
+    std::vector<vec3>& lamps;  // lx per unit intensity
+    PhotonShares& shares;
+    Rng& rng;
+};
+
+/// Light meter over one scene and map. Thread-safe.
+class LightMeter : public PhotonEstimator {
+  public:
+    LightMeter(const Scene& scene, const RayCaster& caster, const PhotonMap& map)
+        : PhotonEstimator(scene, map, none_, {gather_mode_smooth, 1, 0}),
+          scene_(scene),
+          caster_(caster),
+          emitters_(scene),
+          path_correlation_(correlation_of_paths(scene, map)) {}
+
+    Reading read(const Sensor& sensor, size_t index, const MeterSettings& settings, PhotonShares& shares) const;
+    size_t references() const { return map_.places.size(); }
+
+  private:
+    static std::vector<float> correlation_of_paths(const Scene& scene, const PhotonMap& map);
+    float file_lux(uint lamp, vec3 per_intensity) const {
+        return luminance(per_intensity * scene_.lights[lamp].intensity);
+    }
+    vec3 direct(uint lamp, const Sensor& sensor, uint samples, uint32_t scramble) const;
+    void gather(vec3 origin, vec3 direction, Gathering& to) const;
+    void add_emission(const Surface& s, vec3 to_view, Gathering& to) const;
+    void add_lamps(uint map, const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes,
+                   Gathering& to) const;
+    void add_photons(uint map, Surface s, vec3 n_geometric, vec3 n, vec3 to_view, Gathering& to) const;
+    void finish(const PhotonShares& shares, Reading& reading) const;
+
+    static inline const std::vector<vec3> none_;
+    const Scene& scene_;
+    const RayCaster& caster_;
+    Emitters emitters_;
+    std::vector<float> path_correlation_;
+};
+
+/// Photons of one path are not independent. With r photons stored per path, geometrically distributed, the variance of
+/// a sum over paths is up to 1 + 2 r times that of as many independent photons.
+std::vector<float> LightMeter::correlation_of_paths(const Scene& scene, const PhotonMap& map) {
+    std::vector<double> references(scene.lights.size(), 0);
+    for (const PhotonPlace& place : map.places) references[light_of(place)] += 1;
+    std::vector<float> correlation;
+    const double per_reference = double(map.stored_photons) / std::max<double>(double(map.places.size()), 1);
+    for (size_t lamp = 0; lamp < references.size(); ++lamp)
+        correlation.push_back(float(1 + 2 * references[lamp] * per_reference / std::max<double>(double(map.emitted[lamp]), 1)));
+    return correlation;
+}
+
+/// Lux per unit intensity that a lamp sends straight to a sensor.
+vec3 LightMeter::direct(uint lamp, const Sensor& sensor, uint samples, uint32_t scramble) const {
+    if (scene_.lights[lamp].type != light_mesh) samples = 1;
+    vec3 sum(0);
+    for (uint i = 0; i < samples; ++i) {
+        const auto in = emitters_.arrive(lamp, sensor.position, sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
+        if (!in) continue;
+        const float response = response_to(sensor, in->to_light);
+        if (response <= 0) continue;
+        const vec3 light = in->radiance * caster_.transmittance(sensor.position, in->position) * response;
+        sum += in->pdf > 0 ? light / in->pdf : light;
+    }
+    return sum / float(samples);
+}
+
+void LightMeter::add_emission(const Surface& s, vec3 to_view, Gathering& to) const {
+    if (s.light >= 0) to.lamps[size_t(s.light)] += to.throughput * emitters_.radiance(s, to_view);
+}
+
+/// Light that lamps send to a surface around and it sends on; one point of each emissive mesh when `meshes`.
+void LightMeter::add_lamps(uint map, const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes,
+                           Gathering& to) const {
+    for (uint lamp = 0; lamp < light_count; ++lamp) {
+        if (lights[lamp].type == light_mesh && !meshes) continue;
+        const LampsAround around = lamps_around(map, s.position, visibility_word(lamp));
+        const uint seen = (around.nodes.x | around.nodes.y | around.nodes.z | around.nodes.w) >> visibility_shift(lamp);
+        if ((seen & (some_visible | some_hidden)) == some_hidden) continue;
+        const float u = to.rng.next(), v = to.rng.next();
+        const std::optional<Incident> in = emitters_.arrive(lamp, s.position, u, v);
+        if (!in || dot(in->to_light, n_geometric) <= 0 || dot(in->to_light, n) <= 0) continue;
+        const vec3 f = to.throughput * eval_brdf(s, n, to_view, in->to_light, false) * dot(in->to_light, n);
+        if (f.x + f.y + f.z <= 0) continue;
+        const vec3 light = f * in->radiance * caster_.transmittance(caster_.offset(s.position, n_geometric), in->position);
+        to.lamps[lamp] += in->pdf > 0 ? light / in->pdf : light;
+    }
+}
+
+/// Reflected light of the photons within half the radius of the map: a radius that does not follow the photons leaves
+/// their sum unbiased, and noise at one surface point is averaged over the rays.
+void LightMeter::add_photons(uint map, Surface s, vec3 n_geometric, vec3 n, vec3 to_view, Gathering& to) const {
+    if (map == no_map) return;
+    const SurfaceGrid& grid = grids[map];
+    const vec3 local = position_in_grid(grid, s.position);
+    const float radius = 0.5f * grid.radius, r2 = radius * radius;
+    const float covered = has_coverage ? coverage_at(grid, local, radius) : 1.0f;
+    const float peak = 2 / (lw_pi * r2) * inverse_flux_scale / covered;
+    const vec3 diffuse = eval_brdf(s, n, to_view, n, true);
+    s.roughness = std::max(s.roughness, narrowest_gathered_roughness);
+    const ivec2 low = cell_of(local - vec3(radius, radius, 0), grid), high = cell_of(local + vec3(radius, radius, 0), grid);
+    for (int y = low.y; y <= high.y; ++y) {
+        const uvec2 span = row_span(grid, low.x, high.x, y);
+        for (uint i = span.x; i < span.y; ++i) {
+            const PhotonPlace place = photon_place(i);
+            const vec3 d = place_in_grid(place, grid) - local;
+            const float d2 = dot(d, d);
+            if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
+            vec3 f = diffuse;
+            if (has_directions) {
+                const vec3 from = unpack_direction(photon_direction(i));
+                const float tilt = clamp(dot(n, from) / std::max(dot(n_geometric, from), 0.05f), 0.0f, 2.0f);
+                f = eval_brdf(s, n, to_view, from, false) * tilt;
+            }
+            const uint lamp = light_of(place);
+            const vec3 light = to.throughput * f * unpack_rgb9e5(photon_flux(i)) * (peak * (1 - d2 / r2));
+            to.lamps[lamp] += light;
+            to.shares.add(i, file_lux(lamp, light));
+        }
+    }
+}
+
+/// Follows a ray to the first surface that photons can describe: through glass and over mirrors, and off surfaces
+/// closer than the photons resolve (else corners would be darker or brighter than they are).
+void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
+    bool emission = false;  // direct light is already counted, but not what came over a mirror or a lens
+    for (int depth = 0; depth < longest_path; ++depth) {
+        const std::optional<Hit> hit = caster_.nearest(origin, direction);
+        if (!hit) return;
+        const Surface s = surface_at(hit->triangle, hit->barycentrics);
+        if (s.flags & material_unlit) return;
+        const vec3 to_view = -direction;
+        if (emission) add_emission(s, to_view, to);
+        const bool front = dot(s.geometric_normal, to_view) >= 0;
+        const vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal;
+        vec3 n = front ? s.normal : -s.normal;
+        if (dot(n, to_view) <= 1e-4f) n = n_geometric;
+        const uint map = triangle_maps[2 * hit->triangle + (front ? 0 : 1)];
+        const bool specular = is_purely_specular(s);
+        const bool sharp = !specular && s.metallic > 0.5f && s.roughness < narrowest_gathered_roughness;
+        const bool close = hit->distance < 0.5f * max_radius;
+        const bool walk_on = specular || sharp || close;
+        Surface lit = s;
+        if (!walk_on) lit.roughness = std::max(s.roughness, narrowest_direct_roughness);
+        if (!specular && (walk_on || !map_.settings.direct_in_photons))
+            add_lamps(map, lit, n_geometric, n, to_view, !sharp, to);
+        if (!walk_on) add_photons(map, s, n_geometric, n, to_view, to);
+        if (!walk_on && s.transmission <= 0) return;
+
+        const std::optional<Scatter> next = sample_bsdf(*this, s, to_view, to.rng);
+        if (!next) return;
+        const bool passes = dot(next->direction, n_geometric) < 0;
+        if (!walk_on && !passes) return;
+        to.throughput *= next->weight;
+        if (depth > 3) {
+            const float survival = std::min(0.95f, std::max({to.throughput.x, to.throughput.y, to.throughput.z}) / lw_pi);
+            if (!(to.rng.next() < survival)) return;
+            to.throughput /= survival;
+        }
+        const bool straight = (s.flags & material_thin) && dot(next->direction, direction) > 0.9999f;
+        if (!straight) emission = next->specular || sharp;
+        direction = next->direction;
+        origin = caster_.offset(s.position, passes ? -n_geometric : n_geometric);
+    }
+}
+
+void LightMeter::finish(const PhotonShares& shares, Reading& reading) const {
+    double sum = 0, sum2 = 0;
+    for (const uint reference : shares.touched) {
+        const uint lamp = light_of(photon_place(reference));
+        const float share = shares.lux[reference] / float(reading.rays);
+        reading.photon_variance[lamp] += path_correlation_[lamp] * share * share;
+        sum += double(share), sum2 += double(path_correlation_[lamp] * share * share);
+    }
+    reading.photons = sum2 > 0 ? float(sum * sum / sum2) : 0;
+    for (vec3& lamp : reading.lamps) lamp /= float(repetitions);
+}
+
+Reading LightMeter::read(const Sensor& sensor, size_t index, const MeterSettings& settings, PhotonShares& shares) const {
+    Reading reading;
+    const size_t count = light_count;
+    const uint rays = std::max(settings.rays / repetitions, 1u);
+    reading.rays = rays * repetitions;
+    reading.lamps.assign(count, vec3(0));
+    reading.repeated.assign(count * repetitions, 0);
+    reading.photon_variance.assign(count, 0);
+    reading.indirect.assign(count, 0);
+    Rng blocking(settings.seed, 0, index);
+    reading.blocked =
+        sensor.response == Response::planar &&
+        is_buried(caster_, sensor.position, sensor.normal, blocked_within, blocking);
+    for (uint r = 0; r < repetitions; ++r) {
+        const uint64_t stream = index * repetitions + r;
+        Rng rng(settings.seed, 1, stream);
+        const auto scramble = uint32_t(mix64(settings.seed * 0x10001 + stream));
+        std::vector<vec3> sum(count, vec3(0));
+        for (uint i = 0; i < rays; ++i) {
+            const SensedDirection to = sample_direction(sensor, sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble),
+                                                        sobol_owen(i, 2, scramble));
+            Gathering gathering{vec3(to.lux_per_radiance), sum, shares, rng};
+            gather(sensor.position, to.direction, gathering);
+        }
+        for (uint lamp = 0; lamp < count; ++lamp) {
+            const vec3 reflected = sum[lamp] / float(rays);
+            const auto lamp_scramble = uint32_t(mix64(uint64_t(scramble) << 16 | lamp));
+            const vec3 all = reflected + direct(lamp, sensor, std::max(rays / 2, 1u), lamp_scramble);
+            reading.lamps[lamp] += all;
+            reading.repeated[r * count + lamp] = file_lux(lamp, all);
+            reading.indirect[lamp] += file_lux(lamp, reflected) / float(repetitions);
+        }
+    }
+    finish(shares, reading);
+    return reading;
+}
+
+}  // namespace
+
+std::vector<Reading> read_sensors(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
+                                  std::span<const Sensor> sensors, const MeterSettings& settings) {
+    const LightMeter meter(scene, caster, map);
+    std::vector<Reading> readings(sensors.size());
+    Progress progress("sensors", sensors.size());
+    const size_t chunks = std::min<size_t>(sensors.size(), 4 * std::max(1u, std::thread::hardware_concurrency()));
+    parallel_for(chunks, [&](size_t chunk) {
+        PhotonShares shares(meter.references());
+        for (size_t i = chunk; i < sensors.size(); i += chunks) {
+            readings[i] = meter.read(sensors[i], i, settings, shares);
+            for (const uint reference : shares.touched) shares.lux[reference] = 0;
+            shares.touched.clear();
+            progress.step();
+        }
+    });
+    return readings;
+}
+
+double share_of_caustics(const Scene& scene, const PhotonMap& map) {
+    double caustic = 0, all = 0;
+    for (size_t i = 0; i < map.places.size(); ++i) {
+        const Light& lamp = scene.lights[light_of(map.places[i])];
+        const double lumen = double(luminance(unpack_rgb9e5(map.fluxes[i]) * lamp.intensity));
+        all += lumen;
+        if (path_of(map.places[i]) == path_caustic && lamp.type != light_mesh) caustic += lumen;
+    }
+    return all > 0 ? caustic / all : 0;
+}
+
+}  // namespace lw

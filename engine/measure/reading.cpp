@@ -1,0 +1,58 @@
+#include "measure/reading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "image/tonemap.h"
+
+namespace lw {
+namespace {
+
+constexpr double normal_90 = 1.645;   // two-sided 90 % of a normal distribution
+constexpr double student_90 = 1.895;  // of Student's t with repetitions - 1 = 7 degrees of freedom
+static_assert(repetitions == 8);
+
+/// Why a number should not be signed, or "".
+std::string doubt_of(const Reading& reading, const Value& value, double indirect) {
+    char text[96] = "";
+    if (reading.blocked) return "inside or right under an object";
+    if (indirect > 0.02 * value.lux && reading.photons < 100) {
+        std::snprintf(text, sizeof text, "too few photons (%.0f effective)", double(reading.photons));
+    } else if (value.relative() > 0.1) {
+        std::snprintf(text, sizeof text, "interval wider than 10 %%: %s",
+                      value.ray_error > value.photon_error ? "more rays" : "more photons");
+    }
+    return text;
+}
+
+}  // namespace
+
+double lux_of_lamp(const Reading& reading, const Scene& scene, size_t lamp) {
+    return double(luminance(reading.lamps[lamp] * scene.lights[lamp].intensity));
+}
+
+Value value_of(const Reading& reading, const Scene& scene, const std::vector<float>& factors, float maintenance) {
+    const size_t count = reading.lamps.size();
+    Value value;
+    double photon_variance = 0, indirect = 0, deviation2 = 0;
+    for (size_t lamp = 0; lamp < count; ++lamp) {
+        const double factor = double(factors[lamp] * maintenance);
+        value.lux += factor * lux_of_lamp(reading, scene, lamp);
+        indirect += factor * double(reading.indirect[lamp]);
+        photon_variance += factor * factor * double(reading.photon_variance[lamp]);
+    }
+    for (uint r = 0; r < repetitions; ++r) {
+        double lux = 0;
+        for (size_t lamp = 0; lamp < count; ++lamp)
+            lux += double(factors[lamp] * maintenance) * double(reading.repeated[r * count + lamp]);
+        deviation2 += (lux - value.lux) * (lux - value.lux);
+    }
+    value.ray_error = std::sqrt(deviation2 / (repetitions - 1) / repetitions);
+    value.photon_error = std::sqrt(photon_variance);
+    value.half_width = std::hypot(student_90 * value.ray_error, normal_90 * value.photon_error);
+    value.doubt = doubt_of(reading, value, indirect);
+    return value;
+}
+
+}  // namespace lw
