@@ -17,7 +17,9 @@ namespace lw {
 namespace {
 
 constexpr int longest_path = 64;
-constexpr float blocked_within = 0.02f;       // m
+constexpr float least_used_coverage = 0.75f;
+constexpr float blocked_within = 0.02f;     // m
+constexpr float on_surface_within = 2e-3f;  // m
 constexpr float narrowest_direct_roughness = 0.1f;  // a mirror-like coat shows lamps a little widened
 
 /// What each photon brings to the sensor at hand, lux at the file's powers: the spread of the whole sum.
@@ -59,11 +61,12 @@ class LightMeter : public PhotonEstimator {
         return luminance(per_intensity * scene_.lights[lamp].intensity);
     }
     vec3 direct(uint lamp, const Sensor& sensor, uint samples, uint32_t scramble) const;
+    bool is_covered(uint map, vec3 position) const;
     void gather(vec3 origin, vec3 direction, Gathering& to) const;
     void add_emission(const Surface& s, vec3 to_view, Gathering& to) const;
-    void add_lamps(uint map, const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes,
-                   Gathering& to) const;
+    void add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes, Gathering& to) const;
     void add_photons(uint map, Surface s, vec3 n_geometric, vec3 n, vec3 to_view, Gathering& to) const;
+    void estimate_on_surface(const Sensor& sensor, Reading& reading) const;
     void finish(const PhotonShares& shares, Reading& reading) const;
 
     static inline const std::vector<vec3> none_;
@@ -105,13 +108,9 @@ void LightMeter::add_emission(const Surface& s, vec3 to_view, Gathering& to) con
 }
 
 /// Light that lamps send to a surface around and it sends on; one point of each emissive mesh when `meshes`.
-void LightMeter::add_lamps(uint map, const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes,
-                           Gathering& to) const {
+void LightMeter::add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes, Gathering& to) const {
     for (uint lamp = 0; lamp < light_count; ++lamp) {
         if (lights[lamp].type == light_mesh && !meshes) continue;
-        const LampsAround around = lamps_around(map, s.position, visibility_word(lamp));
-        const uint seen = (around.nodes.x | around.nodes.y | around.nodes.z | around.nodes.w) >> visibility_shift(lamp);
-        if ((seen & (some_visible | some_hidden)) == some_hidden) continue;
         const float u = to.rng.next(), v = to.rng.next();
         const std::optional<Incident> in = emitters_.arrive(lamp, s.position, u, v);
         if (!in || dot(in->to_light, n_geometric) <= 0 || dot(in->to_light, n) <= 0) continue;
@@ -155,8 +154,16 @@ void LightMeter::add_photons(uint map, Surface s, vec3 n_geometric, vec3 n, vec3
     }
 }
 
-/// Follows a ray to the first surface that photons can describe: through glass and over mirrors, and off surfaces
-/// closer than the photons resolve (else corners would be darker or brighter than they are).
+/// Whether the photons around a point lie on enough surface to speak for it. The coverage of the rest is too uncertain to
+/// divide by: the mean of its inverse is too large.
+bool LightMeter::is_covered(uint map, vec3 position) const {
+    if (map == no_map || !has_coverage) return true;
+    const SurfaceGrid& grid = grids[map];
+    return coverage_at(grid, position_in_grid(grid, position), 0.5f * grid.radius) >= least_used_coverage;
+}
+
+/// Follows a ray to the first surface that photons can describe: through glass, over mirrors, and off surfaces that are
+/// closer or smaller than the photons resolve (else corners and furniture would be brighter or darker than they are).
 void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
     bool emission = false;  // direct light is already counted, but not what came over a mirror or a lens
     for (int depth = 0; depth < longest_path; ++depth) {
@@ -173,12 +180,12 @@ void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
         const uint map = triangle_maps[2 * hit->triangle + (front ? 0 : 1)];
         const bool specular = is_purely_specular(s);
         const bool sharp = !specular && s.metallic > 0.5f && s.roughness < narrowest_gathered_roughness;
-        const bool close = hit->distance < 0.5f * max_radius;
+        const bool close = hit->distance < 0.5f * max_radius || !is_covered(map, s.position);
         const bool walk_on = specular || sharp || close;
         Surface lit = s;
         if (!walk_on) lit.roughness = std::max(s.roughness, narrowest_direct_roughness);
         if (!specular && (walk_on || !map_.settings.direct_in_photons))
-            add_lamps(map, lit, n_geometric, n, to_view, !sharp, to);
+            add_lamps(lit, n_geometric, n, to_view, !sharp, to);
         if (!walk_on) add_photons(map, s, n_geometric, n, to_view, to);
         if (!walk_on && s.transmission <= 0) return;
 
@@ -196,6 +203,38 @@ void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
         if (!straight) emission = next->specular || sharp;
         direction = next->direction;
         origin = caster_.offset(s.position, passes ? -n_geometric : n_geometric);
+    }
+}
+
+/// The density of the photons on the surface right behind a sensor, beside its direct light.
+void LightMeter::estimate_on_surface(const Sensor& sensor, Reading& reading) const {
+    const std::optional<Hit> hit = caster_.nearest(sensor.position, -sensor.normal, on_surface_within);
+    if (!hit || sensor.response != Response::planar) return;
+    const Surface s = surface_at(hit->triangle, hit->barycentrics);
+    const bool front = dot(s.geometric_normal, sensor.normal) > 0;
+    if (std::abs(dot(s.geometric_normal, sensor.normal)) < 0.99f) return;
+    reading.on_surface = true;
+    reading.photon_map.assign(light_count, 0);
+    if (!map_.settings.direct_in_photons)
+        for (uint lamp = 0; lamp < light_count; ++lamp)
+            reading.photon_map[lamp] = file_lux(lamp, reading.lamps[lamp]) - reading.indirect[lamp];
+    const uint map = triangle_maps[2 * hit->triangle + (front ? 0 : 1)];
+    if (map == no_map) return;
+    const SurfaceGrid& grid = grids[map];
+    const vec3 local = position_in_grid(grid, s.position);
+    const float r2 = grid.radius * grid.radius, covered = has_coverage ? coverage_at(grid, local, grid.radius) : 1.0f;
+    const vec3 reach(grid.radius, grid.radius, 0);
+    const ivec2 low = cell_of(local - reach, grid), high = cell_of(local + reach, grid);
+    for (int y = low.y; y <= high.y; ++y) {
+        const uvec2 span = row_span(grid, low.x, high.x, y);
+        for (uint i = span.x; i < span.y; ++i) {
+            const PhotonPlace place = photon_place(i);
+            const vec3 d = place_in_grid(place, grid) - local;
+            const float d2 = dot(d, d), peak = 2 / (lw_pi * r2) * inverse_flux_scale / covered;
+            if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
+            const vec3 lux = unpack_rgb9e5(photon_flux(i)) * (peak * (1 - d2 / r2));
+            reading.photon_map[light_of(place)] += file_lux(light_of(place), lux);
+        }
     }
 }
 
@@ -245,6 +284,7 @@ Reading LightMeter::read(const Sensor& sensor, size_t index, const MeterSettings
         }
     }
     finish(shares, reading);
+    estimate_on_surface(sensor, reading);
     return reading;
 }
 
