@@ -60,7 +60,8 @@ SensorSet make_grid(const GridRequest& request, const Scene& scene) {
     const double width = request.high[across] - request.low[across] - 2 * request.margin;
     const double height = request.high[along] - request.low[along] - 2 * request.margin;
     const double longer = std::max(width, height), shorter = std::min(width, height);
-    const double spacing = request.spacing > 0 ? request.spacing : grid_spacing(longer >= 2 * shorter ? shorter : longer);
+    const double spacing =
+        request.spacing > 0 ? request.spacing : grid_spacing(longer >= 2 * shorter ? shorter : longer);
     if (width / spacing * height / spacing > most_sensors)
         throw Error("--grid \"" + request.name + "\": more than a million points; give a larger spacing");
     GridShape shape{};
@@ -72,8 +73,9 @@ SensorSet make_grid(const GridRequest& request, const Scene& scene) {
     SensorSet set{SensorSet::Kind::grid, request.name, request.task, {}, {}, shape};
     for (uint row = 0; row < shape.rows; ++row)
         for (uint column = 0; column < shape.columns; ++column)
-            set.sensors.push_back({shape.corner + shape.across * (float(column) + 0.5f) + shape.along * (float(row) + 0.5f),
-                                   request.facing, request.response});
+            set.sensors.push_back(
+                {shape.corner + shape.across * (float(column) + 0.5f) + shape.along * (float(row) + 0.5f),
+                 request.facing, request.response});
     return set;
 }
 

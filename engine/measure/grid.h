@@ -35,8 +35,8 @@ SensorSet make_grid(const GridRequest& request, const Scene& scene);
 /// Throws Error for an unknown object (listing the names) or one without such a face.
 SensorSet make_surface(const std::string& text, const Scene& scene);
 
-/// Points of a CSV file: rows name,x,y,z[,nx,ny,nz[,planar|cylindrical]]; a first row starting with "name" is a heading.
-/// Without a direction a sensor looks up. Throws Error("FILE: line N: what").
+/// Points of a CSV file: rows name,x,y,z[,nx,ny,nz[,planar|cylindrical]]; a first row starting with "name" is a
+/// heading. Without a direction a sensor looks up. Throws Error("FILE: line N: what").
 SensorSet read_points(const std::filesystem::path& path, const Scene& scene);
 
 }  // namespace lw

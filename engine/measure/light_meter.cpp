@@ -20,6 +20,9 @@ constexpr int longest_path = 64;
 constexpr float least_used_coverage = 0.75f;
 constexpr float blocked_within = 0.02f;     // m
 constexpr float on_surface_within = 2e-3f;  // m
+/// Noise of a narrow lobe is averaged over the rays, so it is widened less than in a picture: widening loses light at
+/// grazing angles.
+constexpr float narrowest_reflected_roughness = 0.2f;
 constexpr float narrowest_direct_roughness = 0.1f;  // a mirror-like coat shows lamps a little widened
 
 /// What each photon brings to the sensor at hand, lux at the file's powers: the spread of the whole sum.
@@ -36,7 +39,7 @@ struct PhotonShares {
 
 /// A ray to the surroundings and what it brought so far.
 struct Gathering {
-    vec3 throughput;         // lux per radiance and RGB
+    vec3 throughput;           // lux per radiance and RGB
     std::vector<vec3>& lamps;  // lx per unit intensity
     PhotonShares& shares;
     Rng& rng;
@@ -84,7 +87,8 @@ std::vector<float> LightMeter::correlation_of_paths(const Scene& scene, const Ph
     std::vector<float> correlation;
     const double per_reference = double(map.stored_photons) / std::max<double>(double(map.places.size()), 1);
     for (size_t lamp = 0; lamp < references.size(); ++lamp)
-        correlation.push_back(float(1 + 2 * references[lamp] * per_reference / std::max<double>(double(map.emitted[lamp]), 1)));
+        correlation.push_back(
+            float(1 + 2 * references[lamp] * per_reference / std::max<double>(double(map.emitted[lamp]), 1)));
     return correlation;
 }
 
@@ -116,7 +120,8 @@ void LightMeter::add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_v
         if (!in || dot(in->to_light, n_geometric) <= 0 || dot(in->to_light, n) <= 0) continue;
         const vec3 f = to.throughput * eval_brdf(s, n, to_view, in->to_light, false) * dot(in->to_light, n);
         if (f.x + f.y + f.z <= 0) continue;
-        const vec3 light = f * in->radiance * caster_.transmittance(caster_.offset(s.position, n_geometric), in->position);
+        const vec3 light =
+            f * in->radiance * caster_.transmittance(caster_.offset(s.position, n_geometric), in->position);
         to.lamps[lamp] += in->pdf > 0 ? light / in->pdf : light;
     }
 }
@@ -131,8 +136,9 @@ void LightMeter::add_photons(uint map, Surface s, vec3 n_geometric, vec3 n, vec3
     const float covered = has_coverage ? coverage_at(grid, local, radius) : 1.0f;
     const float peak = 2 / (lw_pi * r2) * inverse_flux_scale / covered;
     const vec3 diffuse = eval_brdf(s, n, to_view, n, true);
-    s.roughness = std::max(s.roughness, narrowest_gathered_roughness);
-    const ivec2 low = cell_of(local - vec3(radius, radius, 0), grid), high = cell_of(local + vec3(radius, radius, 0), grid);
+    s.roughness = std::max(s.roughness, narrowest_reflected_roughness);
+    const ivec2 low = cell_of(local - vec3(radius, radius, 0), grid),
+                high = cell_of(local + vec3(radius, radius, 0), grid);
     for (int y = low.y; y <= high.y; ++y) {
         const uvec2 span = row_span(grid, low.x, high.x, y);
         for (uint i = span.x; i < span.y; ++i) {
@@ -154,8 +160,8 @@ void LightMeter::add_photons(uint map, Surface s, vec3 n_geometric, vec3 n, vec3
     }
 }
 
-/// Whether the photons around a point lie on enough surface to speak for it. The coverage of the rest is too uncertain to
-/// divide by: the mean of its inverse is too large.
+/// Whether the photons around a point lie on enough surface to speak for it. The coverage of the rest is too uncertain
+/// to divide by: the mean of its inverse is too large.
 bool LightMeter::is_covered(uint map, vec3 position) const {
     if (map == no_map || !has_coverage) return true;
     const SurfaceGrid& grid = grids[map];
@@ -195,7 +201,8 @@ void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
         if (!walk_on && !passes) return;
         to.throughput *= next->weight;
         if (depth > 3) {
-            const float survival = std::min(0.95f, std::max({to.throughput.x, to.throughput.y, to.throughput.z}) / lw_pi);
+            const float survival =
+                std::min(0.95f, std::max({to.throughput.x, to.throughput.y, to.throughput.z}) / lw_pi);
             if (!(to.rng.next() < survival)) return;
             to.throughput /= survival;
         }
@@ -250,7 +257,8 @@ void LightMeter::finish(const PhotonShares& shares, Reading& reading) const {
     for (vec3& lamp : reading.lamps) lamp /= float(repetitions);
 }
 
-Reading LightMeter::read(const Sensor& sensor, size_t index, const MeterSettings& settings, PhotonShares& shares) const {
+Reading LightMeter::read(const Sensor& sensor, size_t index, const MeterSettings& settings,
+                         PhotonShares& shares) const {
     Reading reading;
     const size_t count = light_count;
     const uint rays = std::max(settings.rays / repetitions, 1u);
@@ -260,9 +268,8 @@ Reading LightMeter::read(const Sensor& sensor, size_t index, const MeterSettings
     reading.photon_variance.assign(count, 0);
     reading.indirect.assign(count, 0);
     Rng blocking(settings.seed, 0, index);
-    reading.blocked =
-        sensor.response == Response::planar &&
-        is_buried(caster_, sensor.position, sensor.normal, blocked_within, blocking);
+    reading.blocked = sensor.response == Response::planar &&
+                      is_buried(caster_, sensor.position, sensor.normal, blocked_within, blocking);
     for (uint r = 0; r < repetitions; ++r) {
         const uint64_t stream = index * repetitions + r;
         Rng rng(settings.seed, 1, stream);

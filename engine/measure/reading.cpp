@@ -14,7 +14,7 @@ constexpr double student_90 = 1.895;  // of Student's t with repetitions - 1 = 7
 static_assert(repetitions == 8);
 /// What kernels of the size of furniture lose or add, of the reflected light: measured against the path tracer in
 /// data/apartment.glb with 200,000 photons (docs/measuring.md).
-constexpr double kernel_bias = 0.005;
+constexpr double kernel_bias = 0.007;
 
 /// Why a number should not be signed, or "".
 std::string doubt_of(const Reading& reading, const Value& value) {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-
 #include "scene/scene.h"
 
 namespace lw {

@@ -87,7 +87,8 @@ SensorSet make_surface(const std::string& text, const Scene& scene) {
         const auto chosen = std::upper_bound(faces.area_below.begin(), faces.area_below.end() - 1, wanted);
         const uint triangle = faces.triangles[size_t(chosen - faces.area_below.begin())];
         const Surface s = surfaces.surface_at(triangle, sample_triangle(sobol_owen(i, 0, 1), sobol_owen(i, 1, 1)));
-        set.sensors.push_back({s.position + s.geometric_normal * height_over_surface, s.geometric_normal, Response::planar});
+        set.sensors.push_back(
+            {s.position + s.geometric_normal * height_over_surface, s.geometric_normal, Response::planar});
     }
     return set;
 }

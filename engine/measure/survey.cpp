@@ -109,10 +109,9 @@ void reach_error(const Scene& scene, const RayCaster& caster, PhotonMap& map, co
     for (const Place& at : all)
         survey.unreached += errors_of(survey.sets[at.set].readings[at.sensor], scene, survey).interval > settings.error;
     if (survey.unreached > 0)
-        survey.warnings.push_back(
-            text_of("%zu sensors have an interval wider than the %.3g %% asked for; about %.3g million photons would do",
-                    survey.unreached, 100 * settings.error,
-                    1e-6 * double(photons_needed(scene, map, settings, survey))));
+        survey.warnings.push_back(text_of(
+            "%zu sensors have an interval wider than the %.3g %% asked for; about %.3g million photons would do",
+            survey.unreached, 100 * settings.error, 1e-6 * double(photons_needed(scene, map, settings, survey))));
 }
 
 }  // namespace

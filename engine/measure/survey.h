@@ -24,8 +24,8 @@ struct MeasuredSet {
 
 struct SurveySettings {
     MeterSettings meter;
-    double error = 0;  // largest half width of the 90 % interval over the value; 0: whatever the photons give
-    double ray_error = 0.03;  // part of that which rays may leave; a sensor gets more of them until it is reached
+    double error = 0;         // largest half width of the 90 % interval over the value; 0: whatever the photons give
+    double ray_error = 0.02;  // part of that which rays may leave; a sensor gets more of them until it is reached
     uint most_rays = 1u << 16;
     uint64_t most_photons = 64'000'000;
     float maintenance = 1;  // part of the lamps' light that is left (maintenance factor)
@@ -35,16 +35,16 @@ struct Survey {
     std::vector<MeasuredSet> sets;
     std::vector<Ambiance> ambiances;
     float maintenance = 1;
-    uint64_t photons = 0;       // stored in the map that was read last
-    uint64_t bakes = 0;         // maps made to reach the error
-    double caustics = 0;        // share_of_caustics() of that map
-    size_t unreached = 0;       // sensors whose error stayed above the one asked for
+    uint64_t photons = 0;  // stored in the map that was read last
+    uint64_t bakes = 0;    // maps made to reach the error
+    double caustics = 0;   // share_of_caustics() of that map
+    size_t unreached = 0;  // sensors whose error stayed above the one asked for
     std::vector<std::string> warnings;
 };
 
-/// Reads the sets from `map`; sensors are read again with four times the rays until the rays' part of the error is small
-/// enough. With settings.error the scene is baked again with the photons that the rest needs, at the map's own settings.
-/// Sensors under 1 lx, and blocked ones, are not waited for. Throws Error when interrupted.
+/// Reads the sets from `map`; sensors are read again with four times the rays until the rays' part of the error is
+/// small enough. With settings.error the scene is baked again with the photons that the rest needs, at the map's own
+/// settings. Sensors under 1 lx, and blocked ones, are not waited for. Throws Error when interrupted.
 Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
                    std::vector<Ambiance> ambiances, const SurveySettings& settings);
 

@@ -6,11 +6,13 @@
 
 namespace lw {
 
-/// field,kind,sensor,x,y,z,nx,ny,nz,response,ambiance,lux,low,high,ray_error,photon_error,photon_map_lux,photons,doubt, then the
-/// lux of each lamp in that ambiance. low and high bound the 90 % interval; photon_map_lux is empty off surfaces.
+/// field,kind,sensor,x,y,z,nx,ny,nz,response,ambiance,lux,low,high,ray_error,photon_error,photon_map_lux,photons,doubt,
+/// then the lux of each lamp in that ambiance. low and high bound the 90 % interval; photon_map_lux is empty off
+/// surfaces.
 std::string sensors_as_csv(const Survey& survey, const Scene& scene);
 
-/// field,task,ambiance,count,blocked,doubtful, then Emin, Eavg, Emax, U0, Ud each with its half width, required, verdict.
+/// field,task,ambiance,count,blocked,doubtful, then Emin, Eavg, Emax, U0, Ud each with its half width, required,
+/// verdict.
 std::string fields_as_csv(const Survey& survey, const Scene& scene);
 
 /// The same as lines for a terminal.

@@ -29,7 +29,8 @@ std::string trimmed(const std::string& text) {
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
     size_t start = 0;
-    for (size_t end = text.find(separator); end != std::string::npos; start = end + 1, end = text.find(separator, start))
+    for (size_t end = text.find(separator); end != std::string::npos;
+         start = end + 1, end = text.find(separator, start))
         parts.push_back(trimmed(text.substr(start, end - start)));
     parts.push_back(trimmed(text.substr(start)));
     return parts;
