@@ -18,8 +18,9 @@ namespace {
 
 constexpr int longest_path = 64;
 constexpr float least_used_coverage = 0.75f;
-constexpr float blocked_within = 0.02f;     // m
-constexpr float on_surface_within = 2e-3f;  // m
+constexpr float height_over_surface = 1e-3f;  // m
+constexpr float blocked_within = 0.02f;       // m
+constexpr float on_surface_within = 2e-3f;    // m
 /// Noise of a narrow lobe is averaged over the rays, so it is widened less than in a picture: widening loses light at
 /// grazing angles.
 constexpr float narrowest_reflected_roughness = 0.2f;
@@ -55,7 +56,7 @@ class LightMeter : public PhotonEstimator {
           emitters_(scene),
           path_correlation_(correlation_of_paths(scene, map)) {}
 
-    Reading read(const Sensor& sensor, size_t index, const MeterSettings& settings, PhotonShares& shares) const;
+    Reading read(Sensor sensor, size_t index, const MeterSettings& settings, PhotonShares& shares) const;
     size_t references() const { return map_.places.size(); }
 
   private:
@@ -69,6 +70,9 @@ class LightMeter : public PhotonEstimator {
     void add_emission(const Surface& s, vec3 to_view, Gathering& to) const;
     void add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes, Gathering& to) const;
     void add_photons(uint map, Surface s, vec3 n_geometric, vec3 n, vec3 to_view, Gathering& to) const;
+    vec3 lifted(const Sensor& sensor) const;
+    void add_repetition(const Sensor& sensor, uint64_t stream, uint r, const MeterSettings& settings,
+                        PhotonShares& shares, Reading& reading) const;
     void estimate_on_surface(const Sensor& sensor, Reading& reading) const;
     void finish(const PhotonShares& shares, Reading& reading) const;
 
@@ -254,42 +258,73 @@ void LightMeter::finish(const PhotonShares& shares, Reading& reading) const {
         sum += double(share), sum2 += double(path_correlation_[lamp] * share * share);
     }
     reading.photons = sum2 > 0 ? float(sum * sum / sum2) : 0;
-    for (vec3& lamp : reading.lamps) lamp /= float(repetitions);
 }
 
-Reading LightMeter::read(const Sensor& sensor, size_t index, const MeterSettings& settings,
-                         PhotonShares& shares) const {
+/// A sensor that lies on a surface or in a corner, or closer to it than a hair, stands 1 mm off: it neither leaks nor
+/// hides. Walls beside it count where they face it; what is behind it counts from either side.
+vec3 LightMeter::lifted(const Sensor& sensor) const {
+    const mat3 frame = frame_around(sensor.normal);
+    vec3 position = sensor.position;
+    for (const vec3 away : {frame[2], frame[0], -frame[0], frame[1], -frame[1]}) {
+        const vec3 start = position + away * height_over_surface;
+        const std::optional<Hit> hit = caster_.nearest(start, -away, 2 * height_over_surface);
+        if (!hit) continue;
+        const vec3 n = surface_at(hit->triangle, hit->barycentrics).geometric_normal;
+        if (away != frame[2] && dot(n, away) < 0.5f) continue;
+        position = start + away * (height_over_surface - hit->distance);
+    }
+    return position;
+}
+
+/// One of the independent repetitions: quasi-random rays (Owen 1997) of their own scrambling.
+void LightMeter::add_repetition(const Sensor& sensor, uint64_t stream, uint r, const MeterSettings& settings,
+                                PhotonShares& shares, Reading& reading) const {
+    const size_t count = light_count;
+    const uint rays = reading.rays / repetitions;
+    Rng rng(settings.seed, 1, stream);
+    const auto scramble = uint32_t(mix64(settings.seed * 0x10001 + stream));
+    std::vector<vec3> sum(count, vec3(0)), ray(count);
+    std::vector<double> squares(count, 0);
+    for (uint i = 0; i < rays; ++i) {
+        const SensedDirection to = sample_direction(sensor, sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble),
+                                                    sobol_owen(i, 2, scramble));
+        std::fill(ray.begin(), ray.end(), vec3(0));
+        Gathering gathering{vec3(to.lux_per_radiance), ray, shares, rng};
+        gather(sensor.position, to.direction, gathering);
+        for (uint lamp = 0; lamp < count; ++lamp) {
+            sum[lamp] += ray[lamp];
+            const auto lux = double(file_lux(lamp, ray[lamp]));
+            squares[lamp] += lux * lux;
+        }
+    }
+    for (uint lamp = 0; lamp < count; ++lamp) {
+        const vec3 reflected = sum[lamp] / float(rays);
+        const auto lamp_scramble = uint32_t(mix64(uint64_t(scramble) << 16 | lamp));
+        const vec3 all = reflected + direct(lamp, sensor, std::max(rays / 2, 1u), lamp_scramble);
+        reading.lamps[lamp] += all / float(repetitions);
+        reading.repeated[r * count + lamp] = file_lux(lamp, all);
+        reading.indirect[lamp] += file_lux(lamp, reflected) / float(repetitions);
+        const double mean = double(file_lux(lamp, reflected));
+        const double variance = std::max(squares[lamp] / rays - mean * mean, 0.0) / rays;
+        reading.scatter[lamp] += float(variance / (repetitions * repetitions));
+    }
+}
+
+Reading LightMeter::read(Sensor sensor, size_t index, const MeterSettings& settings, PhotonShares& shares) const {
     Reading reading;
     const size_t count = light_count;
-    const uint rays = std::max(settings.rays / repetitions, 1u);
-    reading.rays = rays * repetitions;
+    reading.rays = std::max(settings.rays / repetitions, 1u) * repetitions;
     reading.lamps.assign(count, vec3(0));
     reading.repeated.assign(count * repetitions, 0);
     reading.photon_variance.assign(count, 0);
+    reading.scatter.assign(count, 0);
     reading.indirect.assign(count, 0);
+    sensor.position = lifted(sensor);
     Rng blocking(settings.seed, 0, index);
     reading.blocked = sensor.response == Response::planar &&
                       is_buried(caster_, sensor.position, sensor.normal, blocked_within, blocking);
-    for (uint r = 0; r < repetitions; ++r) {
-        const uint64_t stream = index * repetitions + r;
-        Rng rng(settings.seed, 1, stream);
-        const auto scramble = uint32_t(mix64(settings.seed * 0x10001 + stream));
-        std::vector<vec3> sum(count, vec3(0));
-        for (uint i = 0; i < rays; ++i) {
-            const SensedDirection to = sample_direction(sensor, sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble),
-                                                        sobol_owen(i, 2, scramble));
-            Gathering gathering{vec3(to.lux_per_radiance), sum, shares, rng};
-            gather(sensor.position, to.direction, gathering);
-        }
-        for (uint lamp = 0; lamp < count; ++lamp) {
-            const vec3 reflected = sum[lamp] / float(rays);
-            const auto lamp_scramble = uint32_t(mix64(uint64_t(scramble) << 16 | lamp));
-            const vec3 all = reflected + direct(lamp, sensor, std::max(rays / 2, 1u), lamp_scramble);
-            reading.lamps[lamp] += all;
-            reading.repeated[r * count + lamp] = file_lux(lamp, all);
-            reading.indirect[lamp] += file_lux(lamp, reflected) / float(repetitions);
-        }
-    }
+    for (uint r = 0; r < repetitions; ++r)
+        add_repetition(sensor, index * repetitions + r, r, settings, shares, reading);
     finish(shares, reading);
     estimate_on_surface(sensor, reading);
     return reading;

@@ -12,6 +12,9 @@ namespace {
 constexpr double normal_90 = 1.645;   // two-sided 90 % of a normal distribution
 constexpr double student_90 = 1.895;  // of Student's t with repetitions - 1 = 7 degrees of freedom
 static_assert(repetitions == 8);
+/// Even rays that all miss a small bright thing agree with each other. What they gain over random ones is not believed
+/// beyond this part of the random error.
+constexpr double least_of_scatter = 0.25;
 /// What kernels of the size of furniture lose or add, of the reflected light: measured against the path tracer in
 /// data/apartment.glb with 200,000 photons (docs/measuring.md).
 constexpr double kernel_bias = 0.007;
@@ -45,11 +48,12 @@ double photon_map_lux(const Reading& reading, const std::vector<float>& factors,
 Value value_of(const Reading& reading, const Scene& scene, const std::vector<float>& factors, float maintenance) {
     const size_t count = reading.lamps.size();
     Value value;
-    double photon_variance = 0, indirect = 0, deviation2 = 0;
+    double photon_variance = 0, scatter = 0, indirect = 0, deviation2 = 0;
     for (size_t lamp = 0; lamp < count; ++lamp) {
         const double factor = double(factors[lamp] * maintenance);
         value.lux += factor * lux_of_lamp(reading, scene, lamp);
         indirect += factor * double(reading.indirect[lamp]);
+        scatter += factor * std::sqrt(double(reading.scatter[lamp]));
         photon_variance += factor * factor * double(reading.photon_variance[lamp]);
     }
     for (uint r = 0; r < repetitions; ++r) {
@@ -58,7 +62,8 @@ Value value_of(const Reading& reading, const Scene& scene, const std::vector<flo
             lux += double(factors[lamp] * maintenance) * double(reading.repeated[r * count + lamp]);
         deviation2 += (lux - value.lux) * (lux - value.lux);
     }
-    value.ray_error = std::sqrt(deviation2 / (repetitions - 1) / repetitions);
+    const double spread = std::sqrt(deviation2 / (repetitions - 1) / repetitions);
+    value.ray_error = std::max(spread, least_of_scatter * scatter);
     value.photon_error = std::hypot(std::sqrt(photon_variance), kernel_bias * indirect);
     value.half_width = std::hypot(student_90 * value.ray_error, normal_90 * value.photon_error);
     value.doubt = doubt_of(reading, value);

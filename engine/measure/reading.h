@@ -15,6 +15,7 @@ constexpr uint repetitions = 8;
 struct Reading {
     std::vector<vec3> lamps;             // lx per unit intensity and RGB, per lamp
     std::vector<float> repeated;         // lx at the file's power: repetition r of lamp l at r * lamps + l
+    std::vector<float> scatter;          // lx2 at the file's power, per lamp: variance if the rays were random
     std::vector<float> photon_variance;  // lx2 at the file's power, per lamp
     std::vector<float> indirect;         // lx at the file's power, per lamp
     std::vector<float> photon_map;       // lx at the file's power, per lamp: estimate from the photons on the surface

@@ -22,6 +22,7 @@ const std::map<std::string, Names> allowed_folders = {
     {"photons", {"base", "scene", "trace"}},
     {"maps", {"base", "scene", "photons", "trace"}},
     {"file", {"base", "scene", "maps"}},
+    {"measure", {"base", "image", "scene", "trace", "photons", "maps"}},
     {"gpu", {"base"}},
     {"gather", {"base", "image", "scene", "maps", "gpu"}},
 };

@@ -1,4 +1,5 @@
-// The 90 % interval of a sensor covers the reference path tracer in 85 to 95 % of the cases, in the air and on surfaces.
+// The 90 % interval of a sensor covers the reference path tracer in 85 to 95 % of the cases, in the air and on
+// surfaces.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +26,8 @@ std::vector<Sensor> random_sensors(const Scene& scene, const RayCaster& caster, 
         const vec3 share(rng.next(), rng.next(), rng.next());
         Sensor sensor{mix(scene.bounds[0], scene.bounds[1], share), vec3(0), Response::planar};
         sensor.normal = direction_of(1 - 2 * rng.next(), rng.next());
-        const auto below = caster.nearest(sensor.position, vec3(0, -1, 0)), above = caster.nearest(sensor.position, vec3(0, 1, 0));
+        const auto below = caster.nearest(sensor.position, vec3(0, -1, 0)),
+                   above = caster.nearest(sensor.position, vec3(0, 1, 0));
         if (!below || !above) continue;
         if (surfaces.surface_at(below->triangle, below->barycentrics).geometric_normal.y < 0.5f) continue;
         if (surfaces.surface_at(above->triangle, above->barycentrics).geometric_normal.y > -0.5f) continue;
@@ -77,10 +79,12 @@ void study(const Case& c) {
     std::vector<Value> first;
     for (int bake = 0; bake < c.bakes; ++bake) {
         const auto seed = uint64_t(bake + 1);
-        const PhotonMap map = build_photon_map(scene, caster, shoot_photons(scene, caster, {c.photons, seed}), {c.photons, 0, 60, seed});
+        const PhotonMap map =
+            build_photon_map(scene, caster, shoot_photons(scene, caster, {c.photons, seed}), {c.photons, 0, 60, seed});
         const std::vector<Reading> readings = read_sensors(scene, caster, map, sensors, {c.rays, seed});
         size_t covered[2] = {0, 0}, count[2] = {0, 0};
-        double z_sum[2] = {0, 0}, z2[2] = {0, 0}, bias[2] = {0, 0}, width[2] = {0, 0}, ray[2] = {0, 0}, photon[2] = {0, 0}, te[2]={0,0};
+        double z_sum[2] = {0, 0}, z2[2] = {0, 0}, bias[2] = {0, 0}, width[2] = {0, 0}, ray[2] = {0, 0},
+               photon[2] = {0, 0}, te[2] = {0, 0};
         for (size_t i = 0; i < sensors.size(); ++i) {
             const Value v = value_of(readings[i], scene, full);
             if (truth[i].lux < 1 || !v.doubt.empty()) continue;
@@ -90,13 +94,22 @@ void study(const Case& c) {
             covered[k] += std::abs(v.lux - truth[i].lux) <= v.half_width;
             z_sum[k] += z, z2[k] += z * z, bias[k] += v.lux / truth[i].lux - 1, width[k] += v.relative();
             ray[k] += v.ray_error / v.lux, photon[k] += v.photon_error / v.lux, te[k] += truth[i].error / truth[i].lux;
-            if (std::getenv("LW_LIST") && std::abs(z) > 3) std::printf("   %zu (%.2f %.2f %.2f) n(%.2f %.2f %.2f): %.1f +- %.1f  truth %.1f +- %.1f ind %.1f ray %.2f ph %.2f\n", i, double(sensors[i].position.x), double(sensors[i].position.y), double(sensors[i].position.z), double(sensors[i].normal.x), double(sensors[i].normal.y), double(sensors[i].normal.z), v.lux, v.half_width, truth[i].lux, truth[i].error, v.lux, v.ray_error, v.photon_error);
+            if (std::getenv("LW_LIST") && std::abs(z) > 3)
+                std::printf(
+                    "   %zu (%.2f %.2f %.2f) n(%.2f %.2f %.2f): %.1f +- %.1f  truth %.1f +- %.1f ind %.1f ray %.2f ph "
+                    "%.2f\n",
+                    i, double(sensors[i].position.x), double(sensors[i].position.y), double(sensors[i].position.z),
+                    double(sensors[i].normal.x), double(sensors[i].normal.y), double(sensors[i].normal.z), v.lux,
+                    v.half_width, truth[i].lux, truth[i].error, v.lux, v.ray_error, v.photon_error);
         }
         for (int k = 0; k < 2; ++k) {
             const double n = double(count[k]);
-            std::printf("%-14s %8llu photons %5u rays bake %d %-7s: %3zu of %3zu covered %.3f, z mean %+.2f rms %.2f, bias %+.2f %%, half width %.2f %%, rays %.2f photons %.2f truth %.2f\n", c.scene,
-                        (unsigned long long)c.photons, c.rays, bake, k ? "surface" : "air", covered[k], count[k],
-                        double(covered[k]) / n, z_sum[k] / n, std::sqrt(z2[k] / n), 100 * bias[k] / n, 100 * width[k] / n, 100 * ray[k] / n, 100 * photon[k] / n, 100*te[k]/n);
+            std::printf(
+                "%-14s %8llu photons %5u rays bake %d %-7s: %3zu of %3zu covered %.3f, z mean %+.2f rms %.2f, bias "
+                "%+.2f %%, half width %.2f %%, rays %.2f photons %.2f truth %.2f\n",
+                c.scene, (unsigned long long)c.photons, c.rays, bake, k ? "surface" : "air", covered[k], count[k],
+                double(covered[k]) / n, z_sum[k] / n, std::sqrt(z2[k] / n), 100 * bias[k] / n, 100 * width[k] / n,
+                100 * ray[k] / n, 100 * photon[k] / n, 100 * te[k] / n);
         }
         // spread between bakes, of the photons alone
     }
