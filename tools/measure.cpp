@@ -10,6 +10,7 @@
 #include "image/replaced_file.h"
 #include "maps/build.h"
 #include "measure/grid.h"
+#include "measure/report.h"
 #include "measure/survey.h"
 #include "measure/table.h"
 #include "photons/shoot.h"
@@ -19,8 +20,8 @@
 namespace {
 
 struct Options {
-    std::string scene, map, csv, fields_csv;
-    std::vector<std::string> points, grids, surfaces, powers, ambiances;
+    std::string scene, map, csv, fields_csv, report;
+    std::vector<std::string> points, grids, surfaces, powers, ambiances, cameras;
     double error_percent = 0;
     uint64_t photons = 0;
     unsigned threads = 0;
@@ -76,18 +77,20 @@ void measure(Options& o) {
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::vector<lw::SensorSet> sets = sets_of(o, scene);
     std::vector<lw::Ambiance> ambiances = ambiances_of(o, scene);
-    for (const std::string& path : {o.csv, o.fields_csv})
+    for (const std::string& path : {o.csv, o.fields_csv, o.report})
         if (!path.empty()) lw::check_can_create(path);
+    for (const std::string& camera : o.cameras) lw::find_camera(scene, camera);
     const lw::RayCaster caster(scene);
     const lw::Survey survey =
         lw::make_survey(scene, caster, map_of(o, scene, caster), std::move(sets), std::move(ambiances), o.survey);
     for (const std::string& warning : survey.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::printf("%s", lw::fields_as_text(survey, scene).c_str());
     std::printf("+- half the 90 %% interval; %.3g million photons%s, maintenance factor %g\n",
-                1e-6 * double(survey.photons), survey.bakes > 0 ? " (baked again for the error asked for)" : "",
-                double(survey.maintenance));
+                1e-6 * double(survey.map.stored_photons),
+                survey.bakes > 0 ? " (baked again for the error asked for)" : "", double(survey.maintenance));
     write_text(o.csv, lw::sensors_as_csv(survey, scene));
     write_text(o.fields_csv, lw::fields_as_csv(survey, scene));
+    if (!o.report.empty()) write_text(o.report, lw::report_as_html(survey, scene, caster, o.cameras));
 }
 
 std::string list_of_tasks() {
@@ -134,6 +137,9 @@ void add_options(CLI::App& app, Options& o) {
         ->check(CLI::Range(8u, 1u << 20));
     app.add_option("--csv", o.csv, "file of one row per sensor and ambiance, with the share of each lamp");
     app.add_option("--fields-csv", o.fields_csv, "file of one row per grid or surface and ambiance");
+    app.add_option("--report", o.report, "self-contained HTML report: tables, plans with isolux lines, camera views");
+    app.add_option("--camera", o.cameras, "camera to show in the report in false colours; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--seed", o.survey.meter.seed, "seed of the random numbers")->capture_default_str();
     app.add_option("--threads", o.threads, "worker threads (0: all cores)")
         ->capture_default_str()

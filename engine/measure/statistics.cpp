@@ -23,11 +23,11 @@ Verdict compare(Estimate estimate, double least) {
 
 }  // namespace
 
-Statistics statistics_of(std::span<const Reading> readings, std::span<const Value> values) {
+Statistics statistics_of(std::span<const Reading> readings, std::span<const Value> values, bool sampled) {
     assert(readings.size() == values.size());
     Statistics result;
     const Value *least = nullptr, *most = nullptr;
-    double sum = 0, ray_variance = 0, photon_error = 0;
+    double sum = 0, squares = 0, ray_variance = 0, photon_error = 0;
     for (size_t i = 0; i < values.size(); ++i) {
         if (readings[i].blocked) {
             ++result.blocked;
@@ -36,7 +36,8 @@ Statistics statistics_of(std::span<const Reading> readings, std::span<const Valu
         const Value& value = values[i];
         ++result.count;
         result.doubtful += !value.doubt.empty();
-        sum += value.lux, ray_variance += value.ray_error * value.ray_error, photon_error += value.photon_error;
+        sum += value.lux, squares += value.lux * value.lux, ray_variance += value.ray_error * value.ray_error,
+            photon_error += value.photon_error;
         if (!least || value.lux < least->lux) least = &value;
         if (!most || value.lux > most->lux) most = &value;
     }
@@ -44,7 +45,9 @@ Statistics statistics_of(std::span<const Reading> readings, std::span<const Valu
     const auto count = double(result.count);
     result.minimum = {least->lux, least->half_width};
     result.maximum = {most->lux, most->half_width};
-    result.average = {sum / count, normal_90 * std::hypot(std::sqrt(ray_variance) / count, photon_error / count)};
+    const double spread = sampled ? std::max(squares / count - sum * sum / (count * count), 0.0) / count : 0;
+    const double variance = ray_variance / (count * count) + spread;
+    result.average = {sum / count, normal_90 * std::hypot(std::sqrt(variance), photon_error / count)};
     result.u0 = ratio(result.minimum, result.average);
     result.ud = ratio(result.minimum, result.maximum);
     return result;

@@ -24,8 +24,9 @@ struct Statistics {
 };
 
 /// Photons are shared by all sensors of a field, so their errors are taken as common to all (an upper bound); those of
-/// the rays are independent.
-Statistics statistics_of(std::span<const Reading> readings, std::span<const Value> values);
+/// the rays are independent. `sampled`: the sensors stand for a surface that they sample (its mean is uncertain by
+/// their spread); those of a grid are what is asked for.
+Statistics statistics_of(std::span<const Reading> readings, std::span<const Value> values, bool sampled = false);
 
 enum class Verdict { pass, fail, undecided };
 

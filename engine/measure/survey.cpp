@@ -60,7 +60,8 @@ void add_rays(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
               Survey& survey) {
     const double of_error = std::sqrt(1 - photon_share * photon_share) * settings.error;
     const double share = settings.error > 0 ? std::min(of_error, settings.ray_error) : settings.ray_error;
-    for (uint rays = settings.meter.rays; rays < settings.most_rays;) {
+    const uint most = settings.error > 0 ? 16 * settings.most_rays : settings.most_rays;
+    for (uint rays = settings.meter.rays; rays < most;) {
         rays *= more_rays;
         std::vector<Place> noisy;
         for (const Place& at : places_of(survey))
@@ -140,14 +141,19 @@ Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, s
     read_places(scene, caster, map, all, settings.meter, survey);
     add_rays(scene, caster, map, settings, survey);
     if (settings.error > 0) reach_error(scene, caster, map, all, settings, survey);
-    survey.photons = map.stored_photons;
-    survey.caustics = share_of_caustics(scene, map);
+    survey.map = std::move(map);
+    survey.caustics = share_of_caustics(scene, survey.map);
     if (survey.caustics > 0.02)
         survey.warnings.push_back(
             text_of("%.1f %% of the reflected light came over mirrors or lenses straight from a point, spot or sun; "
                     "sensors do not see such light arrive (they see it on surfaces around)",
                     100 * survey.caustics));
     return survey;
+}
+
+Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance, float maintenance) {
+    return statistics_of(measured.readings, values_of(measured, scene, ambiance, maintenance),
+                         measured.set.kind == SensorSet::Kind::surface);
 }
 
 std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance,

@@ -24,9 +24,9 @@ struct MeasuredSet {
 
 struct SurveySettings {
     MeterSettings meter;
-    double error = 0;         // largest half width of the 90 % interval over the value; 0: whatever the photons give
-    double ray_error = 0.02;  // part of that which rays may leave; a sensor gets more of them until it is reached
-    uint most_rays = 1u << 16;
+    double error = 0;           // largest half width of the 90 % interval over the value; 0: whatever the photons give
+    double ray_error = 0.02;    // part of that which rays may leave; a sensor gets more of them until it is reached
+    uint most_rays = 1u << 14;  // per sensor; 16 times as many with `error`
     uint64_t most_photons = 64'000'000;
     float maintenance = 1;  // part of the lamps' light that is left (maintenance factor)
 };
@@ -35,7 +35,7 @@ struct Survey {
     std::vector<MeasuredSet> sets;
     std::vector<Ambiance> ambiances;
     float maintenance = 1;
-    uint64_t photons = 0;  // stored in the map that was read last
+    PhotonMap map;         // that was read last
     uint64_t bakes = 0;    // maps made to reach the error
     double caustics = 0;   // share_of_caustics() of that map
     size_t unreached = 0;  // sensors whose error stayed above the one asked for
@@ -47,6 +47,9 @@ struct Survey {
 /// settings. Sensors under 1 lx, and blocked ones, are not waited for. Throws Error when interrupted.
 Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
                    std::vector<Ambiance> ambiances, const SurveySettings& settings);
+
+/// The sums of one set in one ambiance.
+Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance, float maintenance);
 
 /// The values of one set in one ambiance.
 std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance,

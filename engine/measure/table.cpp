@@ -76,8 +76,7 @@ std::string fields_as_csv(const Survey& survey, const Scene& scene) {
         "U0_half_width,Ud,Ud_half_width,required_lux,required_U0,verdict\n";
     for (const MeasuredSet& measured : survey.sets)
         for (const Ambiance& ambiance : survey.ambiances) {
-            const Statistics s =
-                statistics_of(measured.readings, values_of(measured, scene, ambiance, survey.maintenance));
+            const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
             text += quoted(measured.set.name) + "," + measured.set.task + "," + quoted(ambiance.name) +
                     format(",%zu,%zu,%zu", s.count, s.blocked, s.doubtful);
             for (const Estimate& e : {s.minimum, s.average, s.maximum, s.u0, s.ud})
@@ -96,8 +95,7 @@ std::string fields_as_text(const Survey& survey, const Scene& scene) {
     const auto lux = [](Estimate e) { return format("%.4g +- %.2g", e.value, e.half_width); };
     for (const MeasuredSet& measured : survey.sets)
         for (const Ambiance& ambiance : survey.ambiances) {
-            const Statistics s =
-                statistics_of(measured.readings, values_of(measured, scene, ambiance, survey.maintenance));
+            const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
             text += format("%-16s %-12s %6zu %16s %16s %16s %14s %6.2f  %s %s", measured.set.name.c_str(),
                            ambiance.name.c_str(), s.count, lux(s.average).c_str(), lux(s.minimum).c_str(),
                            lux(s.maximum).c_str(), format("%.2f +- %.2f", s.u0.value, s.u0.half_width).c_str(),
