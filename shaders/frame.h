@@ -68,7 +68,8 @@ LW_CONST uint constant_has_shadow_rays = 19u;
 LW_CONST uint constant_has_metallic_roughness_textures = 20u;
 LW_CONST uint constant_has_transmission_textures = 21u;
 LW_CONST uint constant_has_mirrors = 22u;
-LW_CONST uint constant_count = 23u;
+LW_CONST uint constant_has_profiles = 23u;
+LW_CONST uint constant_count = 24u;
 
 LW_CONST uint no_triangle = 0xffffffffu;
 
@@ -110,7 +111,7 @@ struct Screen {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Lamp) == 76 && sizeof(Screen) == 12);
+static_assert(sizeof(Lamp) == 92 && sizeof(Screen) == 12);
 static_assert(sizeof(Frame) == 116 && offsetof(Frame, inverse_irradiance_scale) == 112);
 }  // namespace lw
 #else
@@ -137,6 +138,7 @@ layout(constant_id = constant_has_mesh_lamps) const bool has_mesh_lamps = true;
 layout(constant_id = constant_has_metallic_roughness_textures) const bool has_metallic_roughness_textures = true;
 layout(constant_id = constant_has_transmission_textures) const bool has_transmission_textures = true;
 layout(constant_id = constant_has_emissive_textures) const bool has_emissive_textures = true;
+layout(constant_id = constant_has_profiles) const bool has_profiles = true;
 layout(constant_id = constant_has_shadow_rays) const bool has_shadow_rays = true;
 
 #define LW_ARRAY(TYPE, NAME) \

@@ -77,6 +77,7 @@ Light light_at(uint i) { return lamps[i].light; }
 #include "bsdf.glsl"
 #include "gather.glsl"
 #include "rays.glsl"
+#include "profile.glsl"
 #include "direct.glsl"
 #include "shade.glsl"
 

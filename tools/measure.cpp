@@ -16,12 +16,13 @@
 #include "photons/shoot.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
+#include "scene/profile.h"
 
 namespace {
 
 struct Options {
     std::string scene, map, csv, fields_csv, report;
-    std::vector<std::string> points, grids, surfaces, powers, ambiances, cameras;
+    std::vector<std::string> points, grids, surfaces, photometry, powers, ambiances, cameras;
     double error_percent = 0;
     uint64_t photons = 0;
     unsigned threads = 0;
@@ -73,7 +74,7 @@ void write_text(const std::string& path, const std::string& text) {
 void measure(Options& o) {
     const lw::ThreadLimit limit(o.threads);
     o.survey.error = o.error_percent / 100;
-    const lw::Scene scene = lw::load_gltf(o.scene);
+    const lw::Scene scene = lw::with_photometry(lw::load_gltf(o.scene), o.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::vector<lw::SensorSet> sets = sets_of(o, scene);
     std::vector<lw::Ambiance> ambiances = ambiances_of(o, scene);
@@ -141,6 +142,11 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--camera", o.cameras, "camera to show in the report in false colours; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--seed", o.survey.meter.seed, "seed of the random numbers")->capture_default_str();
+    app.add_option("--ies", o.photometry,
+                   "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
+                   "the same for bake and all "
+                   "programs that read the map; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--threads", o.threads, "worker threads (0: all cores)")
         ->capture_default_str()
         ->check(CLI::Range(0u, 4096u));

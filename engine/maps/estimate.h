@@ -104,7 +104,7 @@ class PhotonEstimator : public SurfaceReader {
     const Emitter* emitters;
     uint shadow_rays;
     bool has_shadow_rays;
-    static constexpr bool has_mesh_lamps = true;
+    static constexpr bool has_mesh_lamps = true, has_profiles = true;
     bool has_mirrors;
     bool has_direct;
     std::vector<uint> summed_irradiance_;  // cached mode only

@@ -114,8 +114,12 @@ Photometry read_photometry(const std::filesystem::path& path) {
     const uintmax_t bytes = std::filesystem::file_size(path, failure);
     if (!stream || failure) throw Error(path.string() + ": cannot be opened");
     if (bytes > 16'000'000) throw Error(path.string() + ": larger than 16 MB");
-    const std::string text((std::istreambuf_iterator<char>(stream)), {}), name = path.filename().string();
-    std::string extension = path.extension().string();
+    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    return parse_photometry(text, path.filename().string());
+}
+
+Photometry parse_photometry(const std::string& text, const std::string& name) {
+    std::string extension = std::filesystem::path(name).extension().string();
     for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c + 32) : c;
     const Photometry photometry = extension == ".ldt" ? parse_eulumdat(text, name) : parse_lm63(text, name);
     check_flux(photometry, name);

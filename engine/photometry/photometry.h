@@ -27,7 +27,9 @@ struct Photometry {
 /// file whose flux differs by more than 10 % from what it states.
 Photometry read_photometry(const std::filesystem::path& path);
 
-/// The same from text; `name` begins every message.
+/// The same from the text of a file called `name`.
+Photometry parse_photometry(const std::string& text, const std::string& name);
+/// One format, without the check of the flux; `name` begins every message.
 Photometry parse_lm63(const std::string& text, const std::string& name);
 Photometry parse_eulumdat(const std::string& text, const std::string& name);
 

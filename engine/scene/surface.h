@@ -29,6 +29,7 @@ class SurfaceReader {
           has_textures(!scene.textures.empty()) {}
 
 #include "shaders/bsdf.glsl"
+#include "shaders/profile.glsl"
 #include "shaders/surface.glsl"
 
   protected:

@@ -17,7 +17,8 @@ using Names = std::set<std::string>;
 const std::map<std::string, Names> allowed_folders = {
     {"base", {}},
     {"image", {"base"}},
-    {"scene", {"base", "image"}},
+    {"photometry", {"base"}},
+    {"scene", {"base", "image", "photometry"}},
     {"trace", {"base", "image", "scene"}},
     {"photons", {"base", "scene", "trace"}},
     {"maps", {"base", "scene", "photons", "trace"}},

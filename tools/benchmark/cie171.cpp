@@ -47,7 +47,8 @@ class Laboratory {
                      const Scene& scene, const std::vector<std::string>& objects, double area_each, double expected,
                      bool as_mean) {
         std::vector<SensorSet> sets;
-        for (const std::string& object : objects) sets.push_back(make_surface(object + ": count=400", scene));
+        for (const std::string& object : objects)
+            sets.push_back(make_surface(object + ": count=" + std::to_string(as_mean ? 64 : 400), scene));
         const Survey survey = measure(scene, std::move(sets));
         double sum = 0, error = 0;
         for (const MeasuredSet& set : survey.sets) {
@@ -108,6 +109,38 @@ void point_source(Laboratory& lab) {
     lab.add("-", "point source, cylindrical illuminance", "I sin a / (pi d2)", scene,
             {facing({1, 1, 1}, {0, 1, 0}, Response::cylindrical)},
             {1000 * std::sqrt(2.0) / std::pow(2 + 1.9 * 1.9, 1.5) / pi});
+}
+
+/// An LM-63 file of type C: I = 1000 cos^8 g (3 + cos 2C) / 4, every degree and every 5 degrees of C.
+std::string luminaire_file() {
+    std::string text = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 91 19 1 2 0 0 0\n1 1 10\n";
+    for (int v = 0; v <= 90; ++v) text += std::to_string(v) + " ";
+    for (int h = 0; h <= 90; h += 5) text += "\n" + std::to_string(h);
+    for (int h = 0; h <= 90; h += 5)
+        for (int v = 0; v <= 90; ++v)
+            text += "\n" + std::to_string(250 * std::pow(std::max(std::cos(v * pi / 180), 0.0), 8) *
+                                          (3 + std::cos(2 * h * pi / 180)));
+    return text;
+}
+
+void photometric_file(Laboratory& lab) {
+    const Photometry photometry = parse_photometry(luminaire_file(), "cie.ies");
+    LabScene room, flux;
+    room.add_room({0, 0, 0}, {4, 3, 4}, 0);
+    room.add_luminaire({2, 2.9f, 2}, {0, -1, 0}, {1, 0, 0}, photometry);
+    flux.add_room({0, 0, 0}, {4, 4, 4}, 0);
+    flux.add_luminaire({2, 3, 2}, {0.3f, -1, 0.2f}, {1, 0.3f, 0}, photometry);
+    std::vector<Sensor> sensors;
+    std::vector<double> expected;
+    for (const glm::dvec2 at : {glm::dvec2(2, 2), glm::dvec2(3, 2), glm::dvec2(2, 3.5), glm::dvec2(1, 1)}) {
+        const glm::dvec3 path(at.x - 2, -2.9, at.y - 2);
+        const double d2 = glm::dot(path, path), cosine = 2.9 / std::sqrt(d2), c = std::atan2(path.z, path.x);
+        sensors.push_back(facing({float(at.x), 0, float(at.y)}, {0, 1, 0}));
+        expected.push_back(250 * std::pow(cosine, 8) * (3 + std::cos(2 * c)) * cosine / d2);
+    }
+    lab.add("5.2", "photometric file (LM-63, type C), floor", "I(g, C) cos a / d2", room.finish(), sensors, expected);
+    lab.add_objects("5.4", "flux of a photometric file on all walls, lm", "2 pi 750 / 9", flux.finish(), walls, 16,
+                    2 * pi * 750 / 9, false);
 }
 
 void area_source(Laboratory& lab) {
@@ -226,6 +259,7 @@ void sun_through_window(Laboratory& lab) {
 std::vector<CieResult> run_cie171(unsigned long photons) {
     Laboratory lab(photons);
     point_source(lab);
+    photometric_file(lab);
     area_source(lab);
     flux_conservation(lab);
     diffuse_reflection(lab);

@@ -4,6 +4,7 @@
 
 #include "scene/content_hash.h"
 #include "scene/gltf_materials.h"
+#include "scene/profile.h"
 
 namespace lw {
 
@@ -95,6 +96,15 @@ void LabScene::add_spot(vec3 position, vec3 direction, float candela, float inne
     light.intensity = vec3(candela);
     light.cos_inner = std::cos(glm::radians(inner_deg));
     light.cos_outer = std::cos(glm::radians(outer_deg));
+}
+
+void LabScene::add_luminaire(vec3 position, vec3 direction, vec3 across, const Photometry& photometry) {
+    Light& light = add_light(light_profile, "luminaire" + std::to_string(scene_.lights.size()));
+    light.position = position;
+    light.direction = normalize(direction);
+    light.across = normalize(across);
+    light.intensity = vec3(1);
+    attach_photometry(photometry, light, scene_);
 }
 
 void LabScene::add_sun(vec3 direction, float lux) {

@@ -1,5 +1,6 @@
 // Scenes of known answer, made of rectangles, spheres and lamps: the rooms of CIE 171:2006. All surfaces are Lambert.
 #pragma once
+#include "photometry/photometry.h"
 #include "scene/scene.h"
 
 namespace lw {
@@ -15,6 +16,8 @@ class LabScene {
     void add_sphere(vec3 centre, float radius, uint rings, float albedo);
     void add_point(vec3 position, float candela);
     void add_spot(vec3 position, vec3 direction, float candela, float inner_deg, float outer_deg);
+    /// Aims along `direction`, C0 towards `across`.
+    void add_luminaire(vec3 position, vec3 direction, vec3 across, const Photometry& photometry);
     void add_sun(vec3 direction, float lux);
     Scene finish();
 
