@@ -33,7 +33,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("-o,--output", o.output, "picture: .exr (cd/m2, lux, m) or .png (exposed, 8 bits)");
     app.add_option("--camera", o.camera, "name of a camera of the scene; default: the first");
     app.add_option("--size", o.size, "pixels as WxH; default: 1280 wide with the aspect of the camera");
-    app.add_option("--ies", options.photometry,
+    app.add_option("--ies", o.photometry,
                    "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
                    "the same for bake and all "
                    "programs that read the map; may be repeated")
