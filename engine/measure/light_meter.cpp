@@ -17,6 +17,9 @@ namespace lw {
 namespace {
 
 constexpr int longest_path = 64;
+/// Bias of the reflected light, in radii of the map over the size of the scene: measured against the path tracer
+/// (docs/measuring.md), 0.7 % in data/apartment.glb with 200,000 photons.
+constexpr float bias_of_kernels = 0.2f;
 constexpr float least_used_coverage = 0.75f;
 constexpr float height_over_surface = 1e-3f;  // m
 constexpr float blocked_within = 0.02f;       // m
@@ -319,6 +322,7 @@ Reading LightMeter::read(Sensor sensor, size_t index, const MeterSettings& setti
     reading.photon_variance.assign(count, 0);
     reading.scatter.assign(count, 0);
     reading.indirect.assign(count, 0);
+    reading.kernel_bias = bias_of_kernels * max_radius / scene_size;
     sensor.position = lifted(sensor);
     Rng blocking(settings.seed, 0, index);
     reading.blocked = sensor.response == Response::planar &&

@@ -15,9 +15,6 @@ static_assert(repetitions == 8);
 /// Even rays that all miss a small bright thing agree with each other. What they gain over random ones is not believed
 /// beyond this part of the random error.
 constexpr double least_of_scatter = 0.25;
-/// What kernels of the size of furniture lose or add, of the reflected light: measured against the path tracer in
-/// data/apartment.glb with 200,000 photons (docs/measuring.md).
-constexpr double kernel_bias = 0.007;
 
 /// Why a number should not be signed, or "".
 std::string doubt_of(const Reading& reading, const Value& value) {
@@ -64,7 +61,7 @@ Value value_of(const Reading& reading, const Scene& scene, const std::vector<flo
     }
     const double spread = std::sqrt(deviation2 / (repetitions - 1) / repetitions);
     value.ray_error = std::max(spread, least_of_scatter * scatter);
-    value.photon_error = std::hypot(std::sqrt(photon_variance), kernel_bias * indirect);
+    value.photon_error = std::hypot(std::sqrt(photon_variance), double(reading.kernel_bias) * indirect);
     value.half_width = std::hypot(student_90 * value.ray_error, normal_90 * value.photon_error);
     value.doubt = doubt_of(reading, value);
     return value;

@@ -19,6 +19,7 @@ struct Reading {
     std::vector<float> photon_variance;  // lx2 at the file's power, per lamp
     std::vector<float> indirect;         // lx at the file's power, per lamp
     std::vector<float> photon_map;       // lx at the file's power, per lamp: estimate from the photons on the surface
+    float kernel_bias = 0;               // part of the reflected light that kernels may lose or add
     float photons = 0;                   // effective number of photons in the reflected light
     uint rays = 0;
     bool blocked = false;     // inside or right under something
