@@ -68,7 +68,7 @@ class LightMeter : public PhotonEstimator {
         return luminance(per_intensity * scene_.lights[lamp].intensity);
     }
     vec3 direct(uint lamp, const Sensor& sensor, uint samples, uint32_t scramble) const;
-    bool is_covered(uint map, vec3 position) const;
+    bool is_resolved(uint map, vec3 position, vec3 n_geometric) const;
     void gather(vec3 origin, vec3 direction, Gathering& to) const;
     void add_emission(const Surface& s, vec3 to_view, Gathering& to) const;
     void add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes, Gathering& to) const;
@@ -87,7 +87,8 @@ class LightMeter : public PhotonEstimator {
 };
 
 /// Photons of one path are not independent. With r photons stored per path, geometrically distributed, the variance of
-/// a sum over paths is up to 1 + 2 r times that of as many independent photons.
+/// a sum over paths is up to 1 + 2 r times that of as many independent photons, where all photons of a path count
+/// alike; a sensor sees some of them: 1 + r.
 std::vector<float> LightMeter::correlation_of_paths(const Scene& scene, const PhotonMap& map) {
     std::vector<double> references(scene.lights.size(), 0);
     for (const PhotonPlace& place : map.places) references[light_of(place)] += 1;
@@ -95,7 +96,7 @@ std::vector<float> LightMeter::correlation_of_paths(const Scene& scene, const Ph
     const double per_reference = double(map.stored_photons) / std::max<double>(double(map.places.size()), 1);
     for (size_t lamp = 0; lamp < references.size(); ++lamp)
         correlation.push_back(
-            float(1 + 2 * references[lamp] * per_reference / std::max<double>(double(map.emitted[lamp]), 1)));
+            float(1 + references[lamp] * per_reference / std::max<double>(double(map.emitted[lamp]), 1)));
     return correlation;
 }
 
@@ -167,12 +168,20 @@ void LightMeter::add_photons(uint map, Surface s, vec3 n_geometric, vec3 n, vec3
     }
 }
 
-/// Whether the photons around a point lie on enough surface to speak for it. The coverage of the rest is too uncertain
-/// to divide by: the mean of its inverse is too large.
-bool LightMeter::is_covered(uint map, vec3 position) const {
-    if (map == no_map || !has_coverage) return true;
+/// Whether the photons around a point speak for it: they lie on enough surface (the mean of the inverse of a small
+/// coverage is too large), and nothing stands between, or light would pass under walls.
+bool LightMeter::is_resolved(uint map, vec3 position, vec3 n_geometric) const {
+    constexpr int feelers = 6;
+    constexpr float reach = 1.2f;  // over cos 30 degrees, so that a wall between two feelers is met
+    if (map == no_map) return true;
     const SurfaceGrid& grid = grids[map];
-    return coverage_at(grid, position_in_grid(grid, position), 0.5f * grid.radius) >= least_used_coverage;
+    const float radius = 0.5f * grid.radius;
+    if (has_coverage && coverage_at(grid, position_in_grid(grid, position), radius) < least_used_coverage) return false;
+    const mat3 frame = frame_around(n_geometric);
+    const vec3 start = caster_.offset(position, n_geometric);
+    for (int i = 0; i < feelers; ++i)
+        if (caster_.nearest(start, frame * direction_of(0, float(i) / feelers), reach * radius)) return false;
+    return true;
 }
 
 /// Follows a ray to the first surface that photons can describe: through glass, over mirrors, and off surfaces that are
@@ -193,7 +202,7 @@ void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
         const uint map = triangle_maps[2 * hit->triangle + (front ? 0 : 1)];
         const bool specular = is_purely_specular(s);
         const bool sharp = !specular && s.metallic > 0.5f && s.roughness < narrowest_gathered_roughness;
-        const bool close = hit->distance < 0.5f * max_radius || !is_covered(map, s.position);
+        const bool close = hit->distance < 0.5f * max_radius || !is_resolved(map, s.position, n_geometric);
         const bool walk_on = specular || sharp || close;
         Surface lit = s;
         if (!walk_on) lit.roughness = std::max(s.roughness, narrowest_direct_roughness);

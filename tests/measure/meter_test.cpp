@@ -55,7 +55,8 @@ TEST(Meter, LightDoesNotPassAWallWithoutThickness) {
     east.push_back({{2, 0, 0}, {1, 0, 0}, Response::planar});  // in a corner of three surfaces
     east.push_back({{3, 0, 1}, {0, 1, 0}, Response::planar});
     const Survey survey = survey_of(scene, {points(east)}, {{"all", {1, 1}}});
-    for (const Value& value : values_of(survey.sets[0], scene, survey.ambiances[0], 1)) EXPECT_EQ(value.lux, 0);
+    for (const Value& value : values_of(survey.sets[0], scene, survey.ambiances[0], 1))
+        EXPECT_LT(value.lux, 1e-3);  // the other side has more than 100 lx
 }
 
 TEST(Meter, SensorsOnSurfacesAndInCornersSeeTheirSide) {

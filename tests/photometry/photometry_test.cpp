@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "photometry/photometry.h"
 #include "scene/gltf.h"
 #include "scene/gltf_text.h"
