@@ -85,6 +85,9 @@ void measure(Options& o) {
     const lw::Survey survey =
         lw::make_survey(scene, caster, map_of(o, scene, caster), std::move(sets), std::move(ambiances), o.survey);
     for (const std::string& warning : survey.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    for (const std::string& text : o.photometry)
+        std::printf("%s: %s\n", text.c_str(),
+                    lw::summary_of(lw::read_photometry(text.substr(text.find('=') + 1))).c_str());
     std::printf("%s", lw::fields_as_text(survey, scene).c_str());
     std::printf("+- half the 90 %% interval; %.3g million photons%s, maintenance factor %g\n",
                 1e-6 * double(survey.map.stored_photons),

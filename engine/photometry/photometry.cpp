@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 #include "base/error.h"
@@ -98,6 +99,20 @@ double flux_of(const Photometry& photometry) {
 
 double light_output_ratio(const Photometry& photometry) {
     return photometry.lamp_lumens > 0 ? flux_of(photometry) / photometry.lamp_lumens : 0;
+}
+
+std::string summary_of(const Photometry& photometry) {
+    char text[160];
+    const double strongest = *std::max_element(photometry.candela.begin(), photometry.candela.end());
+    std::snprintf(text, sizeof text, "%.4g lm, at most %.4g cd", flux_of(photometry), strongest);
+    std::string line = text;
+    if (photometry.lamp_lumens > 0) {
+        std::snprintf(text, sizeof text, ", light output ratio %.0f %% of %.5g lm",
+                      100 * light_output_ratio(photometry), photometry.lamp_lumens);
+        line += text;
+    }
+    if (photometry.color_temperature > 0) line += ", " + std::to_string(int(photometry.color_temperature)) + " K";
+    return line;
 }
 
 double tilt_factor(const Photometry& photometry, double angle) {

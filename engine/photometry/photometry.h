@@ -42,6 +42,9 @@ double flux_of(const Photometry& photometry);
 /// Flux over that of the lamps (light output ratio), or 0 for an absolute file.
 double light_output_ratio(const Photometry& photometry);
 
+/// Flux, strongest intensity, light output ratio and colour temperature in a line.
+std::string summary_of(const Photometry& photometry);
+
 /// Part of the lamps' light when the luminaire is tilted by this many degrees from straight down.
 double tilt_factor(const Photometry& photometry, double degrees);
 

@@ -26,12 +26,29 @@ std::vector<double> sampled(const Photometry& photometry, uint columns) {
 }
 
 /// The lamp's colour at luminance 1.
-vec3 chromaticity(vec3 intensity) {
+vec3 chromaticity(vec3 intensity, const Photometry& photometry) {
     const float luminance = dot(intensity, vec3(0.2126f, 0.7152f, 0.0722f));
-    return luminance > 0 ? intensity / luminance : vec3(1);
+    const vec3 own = luminance > 0 ? intensity / luminance : vec3(1);
+    const bool white = length(own - vec3(1)) < 1e-3f;
+    return white && photometry.color_temperature > 0 ? color_of_temperature(photometry.color_temperature) : own;
 }
 
 }  // namespace
+
+vec3 color_of_temperature(double kelvin) {
+    const double t = std::clamp(kelvin, 1000.0, 15000.0);
+    const double u =
+        (0.860117757 + 1.54118254e-4 * t + 1.28641212e-7 * t * t) / (1 + 8.42420235e-4 * t + 7.08145163e-7 * t * t);
+    const double v =
+        (0.317398726 + 4.22806245e-5 * t + 4.20481691e-8 * t * t) / (1 - 2.89741816e-5 * t + 1.61456053e-7 * t * t);
+    const double x = 3 * u / (2 * u - 8 * v + 4), y = 2 * v / (2 * u - 8 * v + 4);
+    const glm::dvec3 xyz(x / y, 1, (1 - x - y) / y);
+    const glm::dvec3 rgb(glm::dot(xyz, {3.2404542, -1.5371385, -0.4985314}),
+                         glm::dot(xyz, {-0.9692660, 1.8760108, 0.0415560}),
+                         glm::dot(xyz, {0.0556434, -0.2040259, 1.0572252}));
+    const vec3 visible = max(vec3(rgb), vec3(0));
+    return visible / dot(visible, vec3(0.2126f, 0.7152f, 0.0722f));
+}
 
 void attach_photometry(const Photometry& photometry, Light& light, Scene& scene) {
     const bool round = photometry.type == Photometry::Type::C && photometry.horizontal.size() == 1;
@@ -40,7 +57,7 @@ void attach_photometry(const Photometry& photometry, Light& light, Scene& scene)
     const double strongest = *std::max_element(candela.begin(), candela.end());
     const double tilt = std::acos(std::clamp(double(-light.direction.y), -1.0, 1.0)) * 180 / pi;
     light.type = light_profile;
-    light.intensity = chromaticity(light.intensity) * float(strongest * tilt_factor(photometry, tilt));
+    light.intensity = chromaticity(light.intensity, photometry) * float(strongest * tilt_factor(photometry, tilt));
     light.cos_inner = light.cos_outer = 0;
     light.profile = uint(scene.texels.size());
     scene.texels.push_back(columns);

@@ -148,13 +148,14 @@ TEST(ProfileLight, PhotonsCarryTheFluxOfTheFileWhereItSendsIt) {
         const Scene scene = lamp_with(name);
         const Photometry photometry = file(name);
         const Emitters emitters(scene);
+        const float strongest = dot(scene.lights[0].intensity, vec3(0.2126f, 0.7152f, 0.0722f));
         constexpr int count = 200'000, rings = 6, sides = 8;
         double flux = 0, expected_flux = 0;
         std::array<std::array<double, sides>, rings> got{}, expected{};
         for (int i = 0; i < count; ++i) {
             Rng rng(1, 0, uint64_t(i));
             const Emission e = emitters.emit(0, {0, 0, rng.next(), rng.next(), 0});
-            const double lumen = double(e.flux.x * scene.lights[0].intensity.x) / count;
+            const double lumen = double(e.flux.x * strongest) / count;
             flux += lumen;
             const double gamma = std::acos(double(-e.direction.z)),
                          c = std::atan2(double(e.direction.y), double(e.direction.x));
@@ -170,7 +171,7 @@ TEST(ProfileLight, PhotonsCarryTheFluxOfTheFileWhereItSendsIt) {
                 expected_flux += lumen;
             }
         EXPECT_NEAR(flux / expected_flux, 1, 0.005) << name;
-        EXPECT_NEAR(double(emitters.unit_flux(0) * scene.lights[0].intensity.x) / expected_flux, 1, 0.005) << name;
+        EXPECT_NEAR(double(emitters.unit_flux(0) * strongest) / expected_flux, 1, 0.005) << name;
         for (int r = 0; r < rings; ++r)
             for (int s = 0; s < sides; ++s) {
                 const double sigma = std::sqrt(expected[size_t(r)][size_t(s)] * expected_flux / count);
@@ -217,6 +218,17 @@ TEST(ProfileLight, NodesOfExtLightsIesAreLamps) {
     g.doc["nodes"][2]["extensions"]["EXT_lights_ies"]["light"] = 0;
     g.doc["extensions"]["EXT_lights_ies"]["lights"] = {{{"uri", "../lamp.ies"}}};
     EXPECT_NE(test::error_of([&] { g.load(); }).find("not inside the folder"), std::string::npos);
+}
+
+TEST(ProfileLight, ColourTemperatureTintsAWhiteLampWithoutChangingItsLight) {
+    const vec3 warm = color_of_temperature(3000), day = color_of_temperature(6504);
+    EXPECT_NEAR(dot(warm, vec3(0.2126f, 0.7152f, 0.0722f)), 1, 1e-5f);
+    EXPECT_NEAR(warm.x, 1.77f, 0.03f);  // xy (0.4369, 0.4041) of 3000 K
+    EXPECT_NEAR(warm.z, 0.27f, 0.03f);
+    EXPECT_LT(length(day - vec3(1)), 0.06f);
+    const Scene scene = lamp_with("washer.ldt");
+    EXPECT_NEAR(scene.lights[0].intensity.x / scene.lights[0].intensity.z, warm.x / warm.z, 1e-3f);
+    EXPECT_NE(summary_of(file("washer.ldt")).find("light output ratio 80 % of 1500 lm, 3000 K"), std::string::npos);
 }
 
 TEST(ProfileLight, OnlyPointsAndSpotsTakeAFile) {
