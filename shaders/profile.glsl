@@ -11,7 +11,7 @@ float profile_entry(uint profile, uint column, uint row) LW_MEMBER {
 /// Share of the lamp's intensity towards unit `direction`, linear in both angles.
 float profile_value(Light lamp, vec3 direction) LW_MEMBER {
     float c = atan(dot(direction, cross(lamp.across, lamp.direction)), dot(direction, lamp.across)) / (2.0f * lw_pi);
-    float gamma = acos(clamp(dot(direction, lamp.direction), -1.0f, 1.0f)) / lw_pi;
+    float gamma = atan(length(cross(direction, lamp.direction)), dot(direction, lamp.direction)) / lw_pi;  // acos is coarse on some devices
     float column = (c < 0.0f ? c + 1.0f : c) * float(texels[lamp.profile]);
     float row = gamma * float(texels[lamp.profile + 1u] - 1u);
     uint i = uint(column);

@@ -41,6 +41,13 @@ struct PhotonShares {
     std::vector<uint> touched;
 };
 
+/// Which lamps light a surface around by their own samples: all; all but meshes, which its next ray finds; all, but
+/// meshes together with the next ray (multiple importance sampling, Veach 1997).
+enum class LampChoice { all, without_meshes, with_path };
+
+/// The power heuristic: part of a sample of density `own` where another way has density `other`.
+float share_of(float own, float other) { return own * own / (own * own + other * other); }
+
 /// A ray to the surroundings and what it brought so far.
 struct Gathering {
     vec3 throughput;           // lux per radiance and RGB
@@ -70,8 +77,8 @@ class LightMeter : public PhotonEstimator {
     vec3 direct(uint lamp, const Sensor& sensor, uint samples, uint32_t scramble) const;
     bool is_resolved(uint map, vec3 position, vec3 n_geometric) const;
     void gather(vec3 origin, vec3 direction, Gathering& to) const;
-    void add_emission(const Surface& s, vec3 to_view, Gathering& to) const;
-    void add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes, Gathering& to) const;
+    void add_emission(const Surface& s, vec3 to_view, float weight, Gathering& to) const;
+    void add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, LampChoice choice, Gathering& to) const;
     void add_photons(uint map, Surface s, vec3 n_geometric, vec3 n, vec3 to_view, Gathering& to) const;
     vec3 lifted(const Sensor& sensor) const;
     void add_repetition(const Sensor& sensor, uint64_t stream, uint r, const MeterSettings& settings,
@@ -115,14 +122,15 @@ vec3 LightMeter::direct(uint lamp, const Sensor& sensor, uint samples, uint32_t 
     return sum / float(samples);
 }
 
-void LightMeter::add_emission(const Surface& s, vec3 to_view, Gathering& to) const {
-    if (s.light >= 0) to.lamps[size_t(s.light)] += to.throughput * emitters_.radiance(s, to_view);
+void LightMeter::add_emission(const Surface& s, vec3 to_view, float weight, Gathering& to) const {
+    to.lamps[size_t(s.light)] += to.throughput * emitters_.radiance(s, to_view) * weight;
 }
 
 /// Light that lamps send to a surface around and it sends on; one point of each emissive mesh when `meshes`.
-void LightMeter::add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, bool meshes, Gathering& to) const {
+void LightMeter::add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_view, LampChoice choice,
+                           Gathering& to) const {
     for (uint lamp = 0; lamp < light_count; ++lamp) {
-        if (lights[lamp].type == light_mesh && !meshes) continue;
+        if (lights[lamp].type == light_mesh && choice == LampChoice::without_meshes) continue;
         const float u = to.rng.next(), v = to.rng.next();
         const std::optional<Incident> in = emitters_.arrive(lamp, s.position, u, v);
         if (!in || dot(in->to_light, n_geometric) <= 0 || dot(in->to_light, n) <= 0) continue;
@@ -130,7 +138,10 @@ void LightMeter::add_lamps(const Surface& s, vec3 n_geometric, vec3 n, vec3 to_v
         if (f.x + f.y + f.z <= 0) continue;
         const vec3 light =
             f * in->radiance * caster_.transmittance(caster_.offset(s.position, n_geometric), in->position);
-        to.lamps[lamp] += in->pdf > 0 ? light / in->pdf : light;
+        float weight = in->pdf > 0 ? 1 / in->pdf : 1.0f;
+        if (in->pdf > 0 && choice == LampChoice::with_path)
+            weight *= share_of(in->pdf, bsdf_pdf(*this, s, to_view, in->to_light));
+        to.lamps[lamp] += light * weight;
     }
 }
 
@@ -187,14 +198,21 @@ bool LightMeter::is_resolved(uint map, vec3 position, vec3 n_geometric) const {
 /// Follows a ray to the first surface that photons can describe: through glass, over mirrors, and off surfaces that are
 /// closer or smaller than the photons resolve (else corners and furniture would be brighter or darker than they are).
 void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
-    bool emission = false;  // direct light is already counted, but not what came over a mirror or a lens
+    // Direct light of the sensor is already counted, but not what comes over a mirror or a lens; after a surface that
+    // was walked on from, lamps are found by both ways.
+    bool emission = false;
+    float density = 0, travelled = 0;  // of the last ray's direction, 0 for a mirror; m since it started
     for (int depth = 0; depth < longest_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction);
         if (!hit) return;
         const Surface s = surface_at(hit->triangle, hit->barycentrics);
         if (s.flags & material_unlit) return;
         const vec3 to_view = -direction;
-        if (emission) add_emission(s, to_view, to);
+        travelled += hit->distance;
+        if (emission && s.light >= 0) {
+            const float other = density > 0 ? emitters_.arrive_pdf(s, travelled, direction) : 0.0f;
+            add_emission(s, to_view, density > 0 ? share_of(density, other) : 1.0f, to);
+        }
         const bool front = dot(s.geometric_normal, to_view) >= 0;
         const vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal;
         vec3 n = front ? s.normal : -s.normal;
@@ -207,7 +225,11 @@ void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
         Surface lit = s;
         if (!walk_on) lit.roughness = std::max(s.roughness, narrowest_direct_roughness);
         if (!specular && (walk_on || !map_.settings.direct_in_photons))
-            add_lamps(lit, n_geometric, n, to_view, !sharp, to);
+            add_lamps(lit, n_geometric, n, to_view,
+                      sharp     ? LampChoice::without_meshes
+                      : walk_on ? LampChoice::with_path
+                                : LampChoice::all,
+                      to);
         if (!walk_on) add_photons(map, s, n_geometric, n, to_view, to);
         if (!walk_on && s.transmission <= 0) return;
 
@@ -223,7 +245,7 @@ void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
             to.throughput /= survival;
         }
         const bool straight = (s.flags & material_thin) && dot(next->direction, direction) > 0.9999f;
-        if (!straight) emission = next->specular || sharp;
+        if (!straight) emission = true, density = next->specular || sharp ? 0.0f : next->pdf, travelled = 0;
         direction = next->direction;
         origin = caster_.offset(s.position, passes ? -n_geometric : n_geometric);
     }
@@ -266,6 +288,7 @@ void LightMeter::finish(const PhotonShares& shares, Reading& reading) const {
     for (const uint reference : shares.touched) {
         const uint lamp = light_of(photon_place(reference));
         const float share = shares.lux[reference] / float(reading.rays);
+        reading.by_photons[lamp] += share;
         reading.photon_variance[lamp] += path_correlation_[lamp] * share * share;
         sum += double(share), sum2 += double(path_correlation_[lamp] * share * share);
     }
@@ -331,6 +354,7 @@ Reading LightMeter::read(Sensor sensor, size_t index, const MeterSettings& setti
     reading.photon_variance.assign(count, 0);
     reading.scatter.assign(count, 0);
     reading.indirect.assign(count, 0);
+    reading.by_photons.assign(count, 0);
     reading.kernel_bias = bias_of_kernels * max_radius / scene_size;
     sensor.position = lifted(sensor);
     Rng blocking(settings.seed, 0, index);

@@ -45,11 +45,11 @@ double photon_map_lux(const Reading& reading, const std::vector<float>& factors,
 Value value_of(const Reading& reading, const Scene& scene, const std::vector<float>& factors, float maintenance) {
     const size_t count = reading.lamps.size();
     Value value;
-    double photon_variance = 0, scatter = 0, indirect = 0, deviation2 = 0;
+    double photon_variance = 0, scatter = 0, by_photons = 0, deviation2 = 0;
     for (size_t lamp = 0; lamp < count; ++lamp) {
         const double factor = double(factors[lamp] * maintenance);
         value.lux += factor * lux_of_lamp(reading, scene, lamp);
-        indirect += factor * double(reading.indirect[lamp]);
+        by_photons += factor * double(reading.by_photons[lamp]);
         scatter += factor * std::sqrt(double(reading.scatter[lamp]));
         photon_variance += factor * factor * double(reading.photon_variance[lamp]);
     }
@@ -61,7 +61,7 @@ Value value_of(const Reading& reading, const Scene& scene, const std::vector<flo
     }
     const double spread = std::sqrt(deviation2 / (repetitions - 1) / repetitions);
     value.ray_error = std::max(spread, least_of_scatter * scatter);
-    value.photon_error = std::hypot(std::sqrt(photon_variance), double(reading.kernel_bias) * indirect);
+    value.photon_error = std::hypot(std::sqrt(photon_variance), double(reading.kernel_bias) * by_photons);
     value.half_width = std::hypot(student_90 * value.ray_error, normal_90 * value.photon_error);
     value.doubt = doubt_of(reading, value);
     return value;

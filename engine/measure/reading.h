@@ -18,8 +18,9 @@ struct Reading {
     std::vector<float> scatter;          // lx2 at the file's power, per lamp: variance if the rays were random
     std::vector<float> photon_variance;  // lx2 at the file's power, per lamp
     std::vector<float> indirect;         // lx at the file's power, per lamp
+    std::vector<float> by_photons;       // lx at the file's power, per lamp: what of it the photons of the map say
     std::vector<float> photon_map;       // lx at the file's power, per lamp: estimate from the photons on the surface
-    float kernel_bias = 0;               // part of the reflected light that kernels may lose or add
+    float kernel_bias = 0;               // part of by_photons that kernels may lose or add
     float photons = 0;                   // effective number of photons in the reflected light
     uint rays = 0;
     bool blocked = false;     // inside or right under something
