@@ -20,6 +20,8 @@ constexpr double least_of_scatter = 0.25;
 std::string doubt_of(const Reading& reading, const Value& value) {
     char text[96] = "";
     if (reading.blocked) return "inside or right under an object";
+    const auto dark = [](vec3 lamp) { return lamp == vec3(0); };
+    if (std::all_of(reading.lamps.begin(), reading.lamps.end(), dark)) return "no light found";
     if (reading.photons < 100 && value.photon_error > 0.02 * value.lux) {
         std::snprintf(text, sizeof text, "too few photons (%.0f effective)", double(reading.photons));
     } else if (value.relative() > 0.1) {
