@@ -1,7 +1,8 @@
 // Exact direct light by shadow rays through the BVH: one ray for a point, spot or directional lamp, `shadow_rays` for an
 // emissive mesh; with shadow_rays = 0 none, and shadows as sharp as the lattice. One text for C++ and GLSL. The including
 // scope provides what gather.glsl and rays.glsl need, the array emitters, the functions light_at,
-// light_weight, cell_lamps, and the constants has_mesh_lamps, has_emissive_textures, has_visible_lamps, has_shadow_rays, light_count,
+// light_weight, profile_value, cell_lamps, and the constants has_mesh_lamps, has_profiles, has_emissive_textures,
+// has_visible_lamps, has_shadow_rays, light_count,
 // shadow_rays, ray_epsilon, scene_size. Written for devices that run both sides of a branch: one place that traces.
 
 /// Light that would arrive at a point from one place of a lamp at unit intensity, if nothing stood between.
@@ -25,6 +26,7 @@ LightSample sample_punctual(Light lamp, vec3 position) LW_MEMBER {
     float width = max(lamp.cos_inner - lamp.cos_outer, 1e-6f);
     float t = clamp((-dot(result.to_light, lamp.direction) - lamp.cos_outer) / width, 0.0f, 1.0f);
     result.irradiance = vec3((lamp.type == light_spot ? t * t : 1.0f) / d2);
+    if (has_profiles && lamp.type == light_profile) result.irradiance *= profile_value(lamp, -result.to_light);
     return result;
 }
 

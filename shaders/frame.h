@@ -71,7 +71,8 @@ LW_CONST uint constant_has_transmission_textures = 19u;
 LW_CONST uint constant_has_mirrors = 20u;
 LW_CONST uint constant_stage = 21u;
 LW_CONST uint constant_has_caustics = 22u;
-LW_CONST uint constant_count = 23u;
+LW_CONST uint constant_has_profiles = 23u;
+LW_CONST uint constant_count = 24u;
 
 /// The dispatches of the gather: photons at all pixels, then rays at those that need any.
 LW_CONST uint stage_photons = 0u;

@@ -121,6 +121,7 @@ Light light_at(uint i) { return lights[i]; }
 #include "gather.glsl"
 #include "caustics.glsl"
 #include "rays.glsl"
+#include "profile.glsl"
 #include "direct.glsl"
 #include "shade.glsl"
 

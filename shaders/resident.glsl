@@ -24,6 +24,7 @@ layout(constant_id = constant_has_transmission_textures) const bool has_transmis
 layout(constant_id = constant_has_emissive_textures) const bool has_emissive_textures = true;
 layout(constant_id = constant_has_shadow_rays) const bool has_shadow_rays = true;
 layout(constant_id = constant_has_caustics) const bool has_caustics = true;
+layout(constant_id = constant_has_profiles) const bool has_profiles = true;
 layout(constant_id = constant_stage) const uint stage = stage_photons;
 
 layout(set = 0, binding = binding_corners) uniform textureBuffer corners;
@@ -45,6 +46,7 @@ vec2 corner_uv0(uint triangle, uint c) {
 vec2 corner_uv1(uint triangle, uint c) { return texelFetch(uv1, int(3u * triangle + c)).xy; }
 vec4 corner_color(uint triangle, uint c) { return texelFetch(colors, int(3u * triangle + c)); }
 vec4 corner_tangent(uint triangle, uint c) { return texelFetch(tangents, int(3u * triangle + c)); }
+uint texel_word(uint i) { return packUnorm4x8(texelFetch(texels, int(i))); }
 vec4 texel_at(uint i) { return texelFetch(texels, int(i)); }
 
 Material material_of(uint triangle) {

@@ -11,6 +11,7 @@ LW_CONST uint light_point = 0u;        // intensity in cd
 LW_CONST uint light_spot = 1u;         // intensity in cd inside the inner cone
 LW_CONST uint light_directional = 2u;  // intensity in lx on a plane facing the light
 LW_CONST uint light_mesh = 3u;         // intensity in cd/m2
+LW_CONST uint light_profile = 4u;      // intensity in cd in the strongest direction of its table
 
 LW_CONST uint material_double_sided = 1u;  // emits from both sides
 LW_CONST uint material_unlit = 2u;         // shows base colour x 1 cd/m2, reflects no light
@@ -81,6 +82,8 @@ struct Light {
     uint first_emitter;  // range in the list of emissive triangles (mesh lights)
     uint emitter_count;
     float area;  // m2 of emissive surface, both sides counted when double-sided
+    vec3 across;   // unit, C0 of the table; `direction` is its aim (profile lights)
+    uint profile;  // first word of the table in the array of texels, see profile.glsl
 };
 
 /// A triangle of an emissive mesh. Points on a lamp are picked by area: area_below is that of this and all earlier
@@ -116,7 +119,7 @@ struct Surface {
 #ifdef __cplusplus
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Texture) == 28);
 static_assert(sizeof(Material) == 84 + 5 * 32 && offsetof(Material, base_color_texture) == 84);
-static_assert(sizeof(Object) == 8 && sizeof(Emitter) == 8 && sizeof(Light) == 60 && offsetof(Light, area) == 56);
+static_assert(sizeof(Object) == 8 && sizeof(Emitter) == 8 && sizeof(Light) == 76 && offsetof(Light, profile) == 72);
 }  // namespace lw
 #endif
 #endif

@@ -17,6 +17,7 @@
 #include "maps/build.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
+#include "scene/profile.h"
 
 namespace {
 
@@ -25,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 struct Options {
     std::string scene, output, radius = "auto", direct = "exact";
     uint64_t photons = 1'000'000, seed = 1;
+    std::vector<std::string> photometry;
     float neighbour_angle_deg = 60;
     unsigned threads = 0;
 };
@@ -95,7 +97,7 @@ void bake(const Options& options) {
     const std::filesystem::path output =
         options.output.empty() ? lw::default_map_path(options.scene) : std::filesystem::path(options.output);
     PhaseClock clock;
-    const lw::Scene scene = lw::load_gltf(options.scene);
+    const lw::Scene scene = lw::with_photometry(lw::load_gltf(options.scene), options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     lw::check_can_create(output);
     clock.finish("load");
@@ -137,6 +139,11 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::IsMember({"exact", "photons"}));
     app.add_option("--seed", options.seed, "seed of the random numbers")->capture_default_str();
+    app.add_option("--ies", options.photometry,
+                   "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
+                   "the same for bake and all "
+                   "programs that read the map; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--threads", options.threads, "worker threads (0: all cores)")
         ->capture_default_str()
         ->check(CLI::Range(0u, 4096u));

@@ -10,13 +10,14 @@
 #include "image/replaced_file.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
+#include "scene/profile.h"
 #include "trace/reference.h"
 
 namespace {
 
 struct Options {
     std::string scene, output, camera, size = "960x540";
-    std::vector<std::string> powers;
+    std::vector<std::string> powers, photometry;
     unsigned threads = 0;
     lw::ReferenceSettings settings;
 };
@@ -43,7 +44,7 @@ void render(Options& options) {
     parse_size(options.size, options.settings.width, options.settings.height);
     if (options.settings.samples == 0)
         options.settings.samples = options.settings.seconds > 0 || options.settings.error > 0 ? 1u << 20 : 256;
-    const lw::Scene scene = lw::load_gltf(options.scene);
+    const lw::Scene scene = lw::with_photometry(lw::load_gltf(options.scene), options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     lw::check_can_create(options.output);
     const lw::RayCaster caster(scene);
@@ -91,6 +92,11 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1e6));
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
+    app.add_option("--ies", options.photometry,
+                   "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
+                   "the same for bake and all "
+                   "programs that read the map; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--threads", options.threads, "worker threads (0: all cores)")
         ->capture_default_str()
         ->check(CLI::Range(0u, 4096u));

@@ -12,13 +12,14 @@
 #include "image/replaced_file.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
+#include "scene/profile.h"
 #include "trace/build_bvh.h"
 
 namespace {
 
 struct Options {
     std::string scene, map, output, camera, size, gather = "cached", device;
-    std::vector<std::string> powers;
+    std::vector<std::string> powers, photometry;
     unsigned neighbours = lw::GatherSettings{}.neighbours, samples = 1, frames = 3,
              shadow_rays = lw::GatherSettings{}.shadow_rays;
     std::optional<float> exposure;
@@ -32,6 +33,11 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("-o,--output", o.output, "picture: .exr (cd/m2, lux, m) or .png (exposed, 8 bits)");
     app.add_option("--camera", o.camera, "name of a camera of the scene; default: the first");
     app.add_option("--size", o.size, "pixels as WxH; default: 1280 wide with the aspect of the camera");
+    app.add_option("--ies", o.photometry,
+                   "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
+                   "the same for bake and all "
+                   "programs that read the map; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--neighbours", o.neighbours, "photons per estimate")
@@ -86,7 +92,7 @@ void print_lists(const Options& o) {
     if (o.list_devices)
         for (const std::string& name : lw::device_names()) std::cout << name << "\n";
     if (!o.list_cameras && !o.list_lights) return;
-    const lw::Scene scene = lw::load_gltf(o.scene);
+    const lw::Scene scene = lw::with_photometry(lw::load_gltf(o.scene), o.photometry);
     if (o.list_cameras)
         for (const lw::Camera& camera : scene.cameras) std::cout << camera.name << "\n";
     if (o.list_lights)
@@ -116,7 +122,7 @@ void refuse_validation_messages(const lw::Device& device) {
 }
 
 void take_screenshot(const Options& o) {
-    const lw::Scene scene = lw::load_gltf(o.scene);
+    const lw::Scene scene = lw::with_photometry(lw::load_gltf(o.scene), o.photometry);
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
     const lw::Camera& camera = lw::find_camera(scene, o.camera);
     const std::vector<float> factors = lw::parse_powers(scene, o.powers);

@@ -133,6 +133,8 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     constants_[constant_has_mirrors] = !bvh.nodes.empty() && has_mirrors(scene);
     constants_[constant_has_caustics] = map.caustic_grids > 0;
     constants_[constant_has_mesh_lamps] = !scene.emitters.empty();
+    constants_[constant_has_profiles] = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                                    [](const Light& light) { return light.type == light_profile; });
     constants_[constant_has_metallic_roughness_textures] = any_texture(scene, &Material::metallic_roughness_texture);
     constants_[constant_has_emissive_textures] = any_texture(scene, &Material::emissive_texture);
     constants_[constant_has_transmission_textures] = any_texture(scene, &Material::transmission_texture);

@@ -25,6 +25,12 @@ void append(void* stream, void* bytes, int size) {
     static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(bytes), size);
 }
 
+void append_bytes(void* to, void* bytes, int size) {
+    const auto* first = static_cast<const uint8_t*>(bytes);
+    auto& all = *static_cast<std::vector<uint8_t>*>(to);
+    all.insert(all.end(), first, first + size);
+}
+
 std::vector<uint8_t> read_bytes(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw Error(path.string() + ": cannot be opened");
@@ -40,6 +46,14 @@ void write_png(const std::filesystem::path& path, const Rgb8Image& image) {
     if (!stbi_write_png_to_func(append, &file.stream(), image.width, image.height, 3, image.rgb.data(), stride))
         throw Error(path.string() + ": cannot be encoded as PNG");
     file.commit();
+}
+
+std::vector<uint8_t> encode_png(const Rgb8Image& image) {
+    assert(image.rgb.size() == 3 * image.pixel_count());
+    std::vector<uint8_t> bytes;
+    if (!stbi_write_png_to_func(append_bytes, &bytes, image.width, image.height, 3, image.rgb.data(), 3 * image.width))
+        throw Error("a picture cannot be encoded as PNG");
+    return bytes;
 }
 
 Rgb8Image read_png(const std::filesystem::path& path) {

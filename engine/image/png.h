@@ -10,6 +10,9 @@ namespace lw {
 /// Writes `image` beside `path`, then renames it into place. Throws Error naming the file when it cannot be written.
 void write_png(const std::filesystem::path& path, const Rgb8Image& image);
 
+/// The bytes of a PNG file.
+std::vector<uint8_t> encode_png(const Rgb8Image& image);
+
 /// Reads any PNG as 8-bit RGB: alpha is dropped, grey repeated. Throws Error naming the file when it is missing or
 /// damaged.
 Rgb8Image read_png(const std::filesystem::path& path);

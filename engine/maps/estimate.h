@@ -117,7 +117,7 @@ class PhotonEstimator : public SurfaceReader {
     const Emitter* emitters;
     uint shadow_rays;
     bool has_shadow_rays;
-    static constexpr bool has_mesh_lamps = true;
+    static constexpr bool has_mesh_lamps = true, has_profiles = true;
     bool has_mirrors;
     bool has_direct;
     std::vector<uvec4> cell_light_;  // cached mode only

@@ -230,6 +230,11 @@ GltfFile open_gltf(const std::filesystem::path& path) {
     return file;
 }
 
+std::string decoded_uri(const GltfFile& file, const std::string& uri) {
+    if (!stays_in_folder(uri)) file.fail("\"" + uri.substr(0, 80) + "\" is not inside the folder of the file");
+    return percent_decoded(uri);
+}
+
 std::string label(std::string_view kind, size_t index, const std::string& name) {
     return std::string(kind) + " " + std::to_string(index) + (name.empty() ? "" : " \"" + name + "\"");
 }

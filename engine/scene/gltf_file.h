@@ -30,6 +30,9 @@ struct GltfFile {
 /// Image::image. Throws Error for a truncated file, an unsupported extensionsRequired entry, a URI out of the folder.
 GltfFile open_gltf(const std::filesystem::path& path);
 
+/// The path that a URI of the file names, relative to its folder. Throws Error for one that leaves the folder.
+std::string decoded_uri(const GltfFile& file, const std::string& uri);
+
 /// `mesh 3 "lamp"`, or `mesh 3` when it has no name.
 std::string label(std::string_view kind, size_t index, const std::string& name);
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "scene/gltf_profiles.h"
+
 namespace lw {
 namespace {
 
@@ -30,6 +32,7 @@ Light punctual_light(const GltfFile& file, const tinygltf::Light& source, const 
     light.intensity = vec3(glm::max(color * source.intensity, glm::dvec3(0)));
     light.position = vec3(glm::dvec3(at.world[3]) - scene.origin);
     light.direction = unit_or(-glm::dvec3(at.world[2]), vec3(0, -1, 0));
+    light.across = across_of(at, light.direction);
     const double outer = std::clamp(source.spot.outerConeAngle, 1e-3, double(lw_pi) / 2);
     light.cos_outer = float(std::cos(outer));
     light.cos_inner = float(std::cos(std::clamp(source.spot.innerConeAngle, 0.0, outer)));
@@ -108,7 +111,7 @@ double luminance(vec3 rgb) { return 0.2126 * double(rgb.x) + 0.7152 * double(rgb
 /// Luminous flux in lm; of a directional light what falls on the scene.
 double flux_of(const Light& light, const Scene& scene) {
     const double strength = luminance(light.intensity), pi = double(lw_pi);
-    if (light.type == light_point) return 4 * pi * strength;
+    if (light.type == light_point || light.type == light_profile) return 4 * pi * strength;
     if (light.type == light_spot) return 2 * pi * (1 - double(light.cos_outer + light.cos_inner) / 2) * strength;
     if (light.type == light_mesh) return pi * double(light.area) * strength;
     const double radius = glm::length(glm::dvec3(scene.bounds[1] - scene.bounds[0])) / 2;
@@ -152,7 +155,10 @@ void make_unique(std::vector<std::string>& names) {
 
 void load_lights(GltfFile& file, const std::vector<PlacedNode>& nodes, const std::vector<size_t>& object_nodes,
                  Scene& scene) {
-    for (const PlacedNode& at : nodes) add_punctual(file, at, scene);
+    for (const PlacedNode& at : nodes) {
+        add_punctual(file, at, scene);
+        add_profile_light(file, at, scene);
+    }
     add_mesh_lights(object_nodes, scene);
     if (scene.lights.empty())
         file.fail(

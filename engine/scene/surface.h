@@ -36,12 +36,14 @@ class SurfaceReader {
     vec4 corner_tangent(uint triangle, uint c) const { return tangents[triangles[triangle][int(c)]]; }
     const Material& material_of(uint triangle) const { return materials[objects[triangle_objects[triangle]].material]; }
     int light_of_surface(uint triangle) const { return objects[triangle_objects[triangle]].light; }
+    uint texel_word(uint i) const { return texels[i]; }
     vec4 texel_at(uint i) const {
         const uint bits = texels[i];
         return vec4(uvec4(bits, bits >> 8, bits >> 16, bits >> 24) & 255u) / 255.0f;
     }
 
 #include "shaders/bsdf.glsl"
+#include "shaders/profile.glsl"
 #include "shaders/surface.glsl"
 
   protected:

@@ -36,6 +36,42 @@ float sample_spot_cosine(const Light& light, float u) {
 Emitters::Emitters(const Scene& scene) : scene_(scene), surfaces_(scene) {
     centre_ = 0.5f * (scene.bounds[0] + scene.bounds[1]);
     radius_ = 0.5f * length(scene.bounds[1] - scene.bounds[0]) * 1.001f;
+    for (const Light& light : scene.lights) beams_.push_back(light.type == light_profile ? beam_of(light) : Beam{});
+}
+
+Emitters::Beam Emitters::beam_of(const Light& light) const {
+    // A round distribution has one column, which is cut so that no cell goes all around.
+    Beam beam{std::max(scene_.texels[light.profile], 4u), scene_.texels[light.profile + 1] - 1, {}};
+    const uint step = scene_.texels[light.profile] == 1 ? 0 : 1;
+    double sum = 0;
+    for (uint c = 0; c < beam.columns; ++c)
+        for (uint r = 0; r < beam.rows; ++r) {
+            const float low = lw_pi * float(r) / float(beam.rows), high = lw_pi * float(r + 1) / float(beam.rows);
+            const double area = double(std::cos(low) - std::cos(high)) * 2 * double(lw_pi) / beam.columns;
+            const auto at = [&](uint i, uint j) { return double(surfaces_.profile_entry(light.profile, i * step, j)); };
+            sum += area * (at(c, r) + at(c + 1, r) + at(c, r + 1) + at(c + 1, r + 1)) / 4;
+            beam.flux_below.push_back(float(sum));
+        }
+    return beam;
+}
+
+Emission Emitters::emit_profile(const Light& light, const Beam& beam, float u, float v) const {
+    const float total = beam.flux_below.back();
+    const auto chosen = std::min(std::upper_bound(beam.flux_below.begin(), beam.flux_below.end(), u * total),
+                                 beam.flux_below.end() - 1);
+    const auto cell = uint(chosen - beam.flux_below.begin());
+    const float below = cell == 0 ? 0.0f : beam.flux_below[cell - 1], own = *chosen - below;
+    const float within = clamp((u * total - below) / std::max(own, 1e-30f), 0.0f, 0.99999994f);
+    const uint column = cell / beam.rows, row = cell % beam.rows;
+    const float low = std::cos(lw_pi * float(row) / float(beam.rows)),
+                high = std::cos(lw_pi * float(row + 1) / float(beam.rows));
+    const float cosine = low + within * (high - low), c = 2 * lw_pi * (float(column) + v) / float(beam.columns);
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    const vec3 direction = normalize(light.direction * cosine + light.across * (sine * std::cos(c)) +
+                                     cross(light.across, light.direction) * (sine * std::sin(c)));
+    const float area = (low - high) * 2 * lw_pi / float(beam.columns);
+    const float flux = surfaces_.profile_value(light, direction) * area * total / std::max(own, 1e-30f);
+    return {light.position, vec3(0), direction, vec3(flux)};
 }
 
 float Emitters::area_of(const Light& light) const {
@@ -61,6 +97,8 @@ float Emitters::unit_flux(uint index) const {
             return 4 * lw_pi;
         case light_spot:
             return 2 * lw_pi * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
+        case light_profile:
+            return beams_[index].flux_below.back();
         case light_directional:
             return lw_pi * radius_ * radius_;
         default:
@@ -72,6 +110,7 @@ Emission Emitters::emit(uint index, const std::array<float, 5>& u) const {
     const Light& light = scene_.lights[index];
     const vec3 flux(unit_flux(index));
     if (light.type == light_point) return {light.position, vec3(0), direction_of(1 - 2 * u[2], u[3]), flux};
+    if (light.type == light_profile) return emit_profile(light, beams_[index], u[2], u[3]);
     if (light.type == light_spot)
         return {light.position, vec3(0),
                 frame_around(light.direction) * direction_of(sample_spot_cosine(light, u[2]), u[3]), flux};
@@ -97,7 +136,9 @@ std::optional<Incident> Emitters::arrive(uint index, vec3 point, float u, float 
         const float d2 = dot(path, path);
         if (!(d2 > 0)) return std::nullopt;
         const vec3 to_light = path / std::sqrt(d2);
-        const float falloff = light.type == light_spot ? spot_falloff(light, -dot(to_light, light.direction)) : 1.0f;
+        const float falloff = light.type == light_spot      ? spot_falloff(light, -dot(to_light, light.direction))
+                              : light.type == light_profile ? surfaces_.profile_value(light, -to_light)
+                                                            : 1.0f;
         if (falloff <= 0) return std::nullopt;
         return Incident{to_light, light.position, vec3(falloff / d2), 0};
     }

@@ -48,8 +48,17 @@ class Emitters {
     float arrive_pdf(const Surface& s, float distance, vec3 to_light) const;
 
   private:
+    /// Cells of a light distribution, picked in proportion to their flux; their last sum is the lamp's, lm per cd.
+    struct Beam {
+        uint columns = 0, rows = 0;
+        std::vector<float> flux_below;
+    };
+    Beam beam_of(const Light& light) const;
+    Emission emit_profile(const Light& light, const Beam& beam, float u, float v) const;
+
     const Scene& scene_;
     SurfaceReader surfaces_;
+    std::vector<Beam> beams_;  // per lamp, empty but for profile lights
     /// The point at (u, v) of a mesh lamp, uniform by area.
     Surface point_of(const Light& light, float u, float v) const;
     float area_of(const Light& light) const;  // one side, m2

@@ -17,12 +17,13 @@ using Names = std::set<std::string>;
 const std::map<std::string, Names> allowed_folders = {
     {"base", {}},
     {"image", {"base"}},
-    {"scene", {"base", "image"}},
+    {"photometry", {"base"}},
+    {"scene", {"base", "image", "photometry"}},
     {"trace", {"base", "image", "scene"}},
-    {"measure", {"base", "image", "scene", "trace"}},
     {"photons", {"base", "scene", "trace"}},
     {"maps", {"base", "scene", "photons", "trace"}},
     {"file", {"base", "scene", "maps"}},
+    {"measure", {"base", "image", "scene", "trace", "photons", "maps"}},
     {"gpu", {"base"}},
     {"gather", {"base", "image", "scene", "maps", "gpu"}},
 };

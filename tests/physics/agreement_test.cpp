@@ -10,6 +10,7 @@
 #include "maps/estimate.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
+#include "scene/profile.h"
 #include "trace/build_bvh.h"
 #include "trace/emitter.h"
 #include "trace/reference.h"
@@ -18,8 +19,8 @@ namespace lw {
 namespace {
 
 struct Baked {
-    Baked(const std::string& name, uint64_t count)
-        : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/" + name)),
+    Baked(const std::string& name, uint64_t count, const std::vector<std::string>& photometry = {})
+        : scene(with_photometry(load_gltf(LUMENWALK_SOURCE_DIR "/data/" + name), photometry)),
           caster(scene),
           map(build_photon_map(scene, caster, shoot_photons(scene, caster, {count, 1}), {count, 0, 60, 1})),
           bvh(build_bvh(scene)) {}
@@ -72,6 +73,11 @@ TEST(Agreement, ShaderEqualsCpuEstimateInTheCornellBox) {
     const Baked baked("cornell.gltf", 100000);
     expect_same(baked, 0, 64, 64);
     expect_same(baked, 1, 64, 64);
+    expect_same(baked, 2, 64, 64);
+}
+
+TEST(Agreement, ShaderEqualsCpuEstimateUnderAPhotometricFile) {
+    const Baked baked("cube.gltf", 50000, {"lamp=" LUMENWALK_SOURCE_DIR "/data/photometry/batwing.ies"});
     expect_same(baked, 2, 64, 64);
 }
 

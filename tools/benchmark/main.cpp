@@ -19,6 +19,7 @@ const lw::Section sections[] = {
     {"equal-time", "the path tracer at equal time and at equal error", lw::measure_equal_time},
     {"features", "what many lamps, glossy materials and textures add", lw::measure_features},
     {"bake", "seconds of the bake's phases, photon tracing against raw rays", lw::measure_bake},
+    {"cie171", "analytic cases of CIE 171:2006: measured illuminance beside the formula", lw::measure_cie171},
 };
 
 struct Options {

@@ -30,6 +30,7 @@ std::vector<Table> measure_scaling(const Bench& bench);
 std::vector<Table> measure_equal_time(const Bench& bench);
 std::vector<Table> measure_features(const Bench& bench);
 std::vector<Table> measure_bake(const Bench& bench);
+std::vector<Table> measure_cie171(const Bench& bench);
 
 struct Section {
     const char* name;

@@ -1,0 +1,26 @@
+// Reads sensors anywhere: direct light of each lamp by shadow rays, reflected light by rays to the surfaces around,
+// where the photons of the map say what each lamp brings (final gathering; Jensen 2001, section 8.3.2).
+#pragma once
+#include <span>
+
+#include "maps/photon_map.h"
+#include "measure/reading.h"
+#include "measure/sensor.h"
+#include "trace/ray_caster.h"
+
+namespace lw {
+
+struct MeterSettings {
+    uint rays = 1024;  // to the surroundings, and half as many to each emissive mesh; a multiple of `repetitions`
+    uint64_t seed = 1;
+};
+
+/// Reads all sensors; the same result at any thread count. Throws Error when interrupted.
+std::vector<Reading> read_sensors(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
+                                  std::span<const Sensor> sensors, const MeterSettings& settings);
+
+/// The part of the lamps' light that reached surfaces over mirrors or lenses from points and suns: gathering at a
+/// sensor in the air cannot see it. 0 to 1, of the reflected light at the file's powers.
+double share_of_caustics(const Scene& scene, const PhotonMap& map);
+
+}  // namespace lw

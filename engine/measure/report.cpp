@@ -1,0 +1,164 @@
+#include "measure/report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/html.h"
+#include "measure/isolux.h"
+#include "measure/table.h"
+#include "measure/view.h"
+#include "scene/camera.h"
+
+namespace lw {
+namespace {
+
+constexpr float plan_band = 0.5f;  // m around a grid
+constexpr int plan_width = 720, picture_width = 720, picture_height = 405;
+
+constexpr const char* style = R"(<style>
+body{font:14px/1.45 system-ui,sans-serif;max-width:72em;margin:2em auto;padding:0 1em;color:#1c1c22}
+h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #ccc}
+table{border-collapse:collapse;margin:.8em 0}td,th{white-space:nowrap;padding:.25em .7em;border-bottom:1px solid #ddd;text-align:right}
+td:first-child,th:first-child{text-align:left}.pass{color:#08702c;font-weight:600}.fail{color:#b00020;font-weight:600}
+.undecided{color:#8a5a00;font-weight:600}.note{color:#555}.warning{background:#fff3d6;padding:.5em .8em;border-left:4px solid #e0a100}
+svg.plan,img.view{display:block;width:100%;max-width:720px;background:#fff}
+svg text{text-anchor:middle;dominant-baseline:central;fill:#111}text.doubtful{fill:#b00020;font-style:italic}text.blocked{fill:#888;text-decoration:line-through}
+.iso{fill:none;stroke:#000}.level{font-weight:700;paint-order:stroke;stroke:#fff;stroke-width:.3em;fill:#000}
+.field{fill:none;stroke:#000;stroke-dasharray:.06 .06}
+.legend{position:relative;height:2.6em;max-width:720px;margin:.4em 0}.bar{position:absolute;left:0;right:0;top:0;height:1em}
+.tick{position:absolute;top:1.1em;transform:translateX(-50%);font-size:12px}.unit{position:absolute;right:0;top:1.1em;font-size:12px}
+</style>)";
+
+std::string cell(const std::string& text) { return "<td>" + text + "</td>"; }
+
+std::string lux_cell(Estimate e) {
+    return cell(printed("%.4g <span class=note>&plusmn; %.2g</span>", e.value, e.half_width));
+}
+
+std::string verdict_cells(const MeasuredSet& measured, const Statistics& s) {
+    if (measured.set.task.empty()) return cell("") + cell("") + cell("");
+    const Task& task = find_task(measured.set.task);
+    const std::string verdict = name_of(judge(s, task).both());
+    return cell(escaped(task.name)) + cell(printed("%g lx, U0 %.2g", task.illuminance, task.uniformity)) +
+           cell("<span class=" + verdict + ">" + verdict + "</span>");
+}
+
+std::string table_of_fields(const Survey& survey, const Scene& scene, const Ambiance& ambiance) {
+    std::string text =
+        "<table><tr><th>field<th>points<th>E<sub>avg</sub> lx<th>E<sub>min</sub><th>E<sub>max</sub><th>U<sub>0</sub>"
+        "<th>U<sub>d</sub><th>doubtful<th>task<th>required<th>result</tr>\n";
+    for (const MeasuredSet& measured : survey.sets) {
+        const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
+        text += "<tr>" + cell(escaped(measured.set.name)) + cell(printed("%zu", s.count)) + lux_cell(s.average) +
+                lux_cell(s.minimum) + lux_cell(s.maximum) +
+                cell(printed("%.2f <span class=note>&plusmn; %.2f</span>", s.u0.value, s.u0.half_width)) +
+                cell(printed("%.2f", s.ud.value)) + cell(printed("%zu", s.doubtful)) + verdict_cells(measured, s) +
+                "</tr>\n";
+    }
+    return text + "</table>\n";
+}
+
+/// Mean lux of a field that each lamp brings.
+std::string table_of_lamps(const Survey& survey, const Scene& scene, const Ambiance& ambiance) {
+    std::string text = "<table><tr><th>lamp<th>power";
+    for (const MeasuredSet& measured : survey.sets) text += "<th>" + escaped(measured.set.name) + " lx";
+    text += "</tr>\n";
+    for (size_t lamp = 0; lamp < scene.lights.size(); ++lamp) {
+        const double factor = double(ambiance.factors[lamp]);
+        text += "<tr>" + cell(escaped(scene.light_names[lamp])) + cell(printed("%.3g", factor));
+        for (const MeasuredSet& measured : survey.sets) {
+            double sum = 0, count = 0;
+            for (const Reading& reading : measured.readings)
+                if (!reading.blocked) sum += lux_of_lamp(reading, scene, lamp), count += 1;
+            text += cell(printed("%.4g", count > 0 ? sum / count * factor * double(survey.maintenance) : 0.0));
+        }
+        text += "</tr>\n";
+    }
+    return text + "</table>\n";
+}
+
+std::string table_of_points(const MeasuredSet& measured, const std::vector<Value>& values, const Scene& scene) {
+    std::string text = "<table><tr><th>" + escaped(measured.set.name) + "<th>x<th>y<th>z<th>lx<th>remark</tr>\n";
+    for (size_t i = 0; i < values.size(); ++i) {
+        const glm::dvec3 at = glm::dvec3(measured.set.sensors[i].position) + scene.origin;
+        text += "<tr>" + cell(escaped(name_of_sensor(measured.set, i))) + cell(printed("%.3f", at.x)) +
+                cell(printed("%.3f", at.y)) + cell(printed("%.3f", at.z)) +
+                lux_cell({values[i].lux, values[i].half_width}) + cell(escaped(values[i].doubt)) + "</tr>\n";
+    }
+    return text + "</table>\n";
+}
+
+/// Bounds of the colours of a field: the same in all ambiances.
+std::pair<double, double> range_of(const MeasuredSet& measured, const Scene& scene, const Survey& survey) {
+    double low = 1e30, high = 0;
+    for (const Ambiance& ambiance : survey.ambiances)
+        for (const Value& value : values_of(measured, scene, ambiance, survey.maintenance))
+            low = std::min(low, value.lux), high = std::max(high, value.lux);
+    high = std::max(high, 1e-6);
+    return {std::clamp(low, high * 1e-2, high * 0.8), high};
+}
+
+std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const Ambiance& ambiance) {
+    std::string text;
+    for (const MeasuredSet& measured : survey.sets) {
+        const std::vector<Value> values = values_of(measured, scene, ambiance, survey.maintenance);
+        if (measured.set.kind == SensorSet::Kind::points) text += table_of_points(measured, values, scene);
+        if (measured.set.kind != SensorSet::Kind::grid) continue;
+        const auto [low, high] = range_of(measured, scene, survey);
+        const GridShape& grid = measured.set.grid;
+        text += "<h3>" + escaped(measured.set.name) + "</h3>\n" +
+                printed("<p class=note>%u &times; %u points every %.3g &times; %.3g m%s</p>\n", grid.columns, grid.rows,
+                        double(length(grid.across)), double(length(grid.along)),
+                        measured.set.sensors[0].response == Response::cylindrical ? ", cylindrical" : "");
+        text += grid_drawing(measured, values, plan_view(scene, caster, measured.set, plan_band, plan_width), plan_band,
+                             low, high) +
+                legend(low, high);
+    }
+    return text;
+}
+
+std::string pictures_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const Ambiance& ambiance,
+                        const std::vector<std::string>& cameras) {
+    std::string text;
+    for (const std::string& name : cameras) {
+        std::vector<double> lux = seen_illuminance(scene, caster, survey.map, find_camera(scene, name), ambiance,
+                                                   picture_width, picture_height);
+        for (double& value : lux) value *= double(survey.maintenance);
+        std::vector<double> sorted = lux;
+        std::sort(sorted.begin(), sorted.end());
+        const double high = std::max(sorted[sorted.size() * 99 / 100], 1e-6), low = high * 1e-2;
+        Rgb8Image image{picture_width, picture_height, {}};
+        for (const double value : lux)
+            for (const uint8_t code : value > 0 ? false_color(log_share(value, low, high)) : std::array<uint8_t, 3>{})
+                image.rgb.push_back(code);
+        text += "<h3>Camera " + escaped(name) +
+                "</h3>\n<img class=view alt=\"illuminance of what the camera sees\" src=\"" + data_address(image) +
+                "\">\n" + legend(low, high);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string report_as_html(const Survey& survey, const Scene& scene, const RayCaster& caster,
+                           const std::vector<std::string>& cameras) {
+    const std::string name = escaped(scene.path.filename().string());
+    std::string text =
+        "<!DOCTYPE html>\n<html lang=en><meta charset=utf-8><meta name=viewport content=\"width=device-width\">"
+        "<title>Illuminance of " +
+        name + "</title>\n" + std::string(style) + "\n<h1>Illuminance of " + name + "</h1>\n";
+    text += printed(
+        "<p>%.3g million photons, maintenance factor %.3g. &plusmn; is half the 90&nbsp;%% interval of a value. "
+        "Numbers in red italics should not be trusted, the CSV says why.</p>\n",
+        1e-6 * double(survey.map.stored_photons), double(survey.maintenance));
+    for (const std::string& warning : survey.warnings) text += "<p class=warning>" + escaped(warning) + "</p>\n";
+    for (const Ambiance& ambiance : survey.ambiances) {
+        text += "<h2>Ambiance " + escaped(ambiance.name) + "</h2>\n" + table_of_fields(survey, scene, ambiance);
+        text += fields_of(survey, scene, caster, ambiance);
+        text += pictures_of(survey, scene, caster, ambiance, cameras);
+        text += "<h3>Share of each lamp, mean of the field</h3>\n" + table_of_lamps(survey, scene, ambiance);
+    }
+    return text + "</html>\n";
+}
+
+}  // namespace lw

@@ -1,0 +1,167 @@
+#include "measure/survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "maps/build.h"
+#include "measure/words.h"
+#include "photons/shoot.h"
+#include "scene/camera.h"
+
+namespace lw {
+namespace {
+
+constexpr double photon_share = 0.7;  // of the error asked for that photons may use; the rays have as much
+constexpr double least_lux = 1;
+constexpr uint more_rays = 4;
+
+/// Where each sensor of a flat list belongs.
+struct Place {
+    size_t set, sensor;
+};
+
+/// The worst error of a reading over the ambiances, over the value: of the rays, of the photons, and the interval's.
+struct Errors {
+    double rays = 0, photons = 0, interval = 0;
+};
+
+Errors errors_of(const Reading& reading, const Scene& scene, const Survey& survey) {
+    Errors worst;
+    for (const Ambiance& ambiance : survey.ambiances) {
+        const Value value = value_of(reading, scene, ambiance.factors, survey.maintenance);
+        if (value.lux < least_lux || reading.blocked) continue;
+        worst.rays = std::max(worst.rays, 1.9 * value.ray_error / value.lux);
+        worst.photons = std::max(worst.photons, 1.645 * value.photon_error / value.lux);
+        worst.interval = std::max(worst.interval, value.relative());
+    }
+    return worst;
+}
+
+std::vector<Place> places_of(const Survey& survey) {
+    std::vector<Place> places;
+    for (size_t set = 0; set < survey.sets.size(); ++set)
+        for (size_t i = 0; i < survey.sets[set].set.sensors.size(); ++i) places.push_back({set, i});
+    return places;
+}
+
+void read_places(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const std::vector<Place>& places,
+                 const MeterSettings& settings, Survey& survey) {
+    std::vector<Sensor> sensors;
+    for (const Place& at : places) sensors.push_back(survey.sets[at.set].set.sensors[at.sensor]);
+    std::vector<Reading> readings = read_sensors(scene, caster, map, sensors, settings);
+    for (size_t i = 0; i < places.size(); ++i)
+        survey.sets[places[i].set].readings[places[i].sensor] = std::move(readings[i]);
+}
+
+/// Reads again, with more rays, the sensors whose rays alone exceed their share.
+void add_rays(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const SurveySettings& settings,
+              Survey& survey) {
+    const double of_error = std::sqrt(1 - photon_share * photon_share) * settings.error;
+    const double share = settings.error > 0 ? std::min(of_error, settings.ray_error) : settings.ray_error;
+    const uint most = settings.error > 0 ? 16 * settings.most_rays : settings.most_rays;
+    for (uint rays = settings.meter.rays; rays < most;) {
+        rays *= more_rays;
+        std::vector<Place> noisy;
+        for (const Place& at : places_of(survey))
+            if (errors_of(survey.sets[at.set].readings[at.sensor], scene, survey).rays > share) noisy.push_back(at);
+        if (noisy.empty()) return;
+        read_places(scene, caster, map, noisy, {rays, settings.meter.seed + rays}, survey);
+    }
+}
+
+/// Photons with which every sensor's photon error would be its share; the map's own number when it is enough.
+uint64_t photons_needed(const Scene& scene, const PhotonMap& map, const SurveySettings& settings,
+                        const Survey& survey) {
+    double worst = 0;
+    for (const Place& at : places_of(survey))
+        worst = std::max(worst, errors_of(survey.sets[at.set].readings[at.sensor], scene, survey).photons);
+    const double ratio = worst / (photon_share * settings.error);
+    if (ratio <= 1) return map.stored_photons;
+    return uint64_t(std::min(double(map.stored_photons) * ratio * ratio * 1.15, 1e18));
+}
+
+PhotonMap bake_again(const Scene& scene, const RayCaster& caster, const BakeSettings& before, uint64_t photons) {
+    BakeSettings settings = before;
+    settings.photons = photons;
+    settings.radius = 0;
+    const Photons shot = shoot_photons(scene, caster, {photons, settings.seed, settings.direct_in_photons});
+    return build_photon_map(scene, caster, shot, settings);
+}
+
+std::string text_of(const char* format, auto... values) {
+    char text[256];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+void reach_error(const Scene& scene, const RayCaster& caster, PhotonMap& map, const std::vector<Place>& all,
+                 const SurveySettings& settings, Survey& survey) {
+    for (int tries = 0; tries < 3; ++tries) {
+        const uint64_t needed = photons_needed(scene, map, settings, survey);
+        const uint64_t photons = std::min(needed, settings.most_photons);
+        if (photons <= map.stored_photons + map.stored_photons / 50) break;
+        map = bake_again(scene, caster, map.settings, photons);
+        ++survey.bakes;
+        read_places(scene, caster, map, all, settings.meter, survey);
+        add_rays(scene, caster, map, settings, survey);
+    }
+    for (const Place& at : all)
+        survey.unreached += errors_of(survey.sets[at.set].readings[at.sensor], scene, survey).interval > settings.error;
+    if (survey.unreached > 0)
+        survey.warnings.push_back(text_of(
+            "%zu sensors have an interval wider than the %.3g %% asked for; about %.3g million photons would do",
+            survey.unreached, 100 * settings.error, 1e-6 * double(photons_needed(scene, map, settings, survey))));
+}
+
+}  // namespace
+
+Ambiance parse_ambiance(const std::string& text, const Scene& scene) {
+    const size_t colon = text.find(':');
+    const std::string name = trimmed(text.substr(0, colon));
+    if (colon == std::string::npos || name.empty())
+        throw Error("--ambiance \"" + text + "\": write NAME: LAMP=FACTOR, LAMP=FACTOR ...");
+    std::vector<std::string> powers = split(text.substr(colon + 1), ',');
+    std::erase(powers, "");
+    return {name, parse_powers(scene, powers)};
+}
+
+Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
+                   std::vector<Ambiance> ambiances, const SurveySettings& settings) {
+    Survey survey;
+    for (SensorSet& set : sets) {
+        if (!set.task.empty()) find_task(set.task);
+        const size_t count = set.sensors.size();
+        survey.sets.push_back({std::move(set), std::vector<Reading>(count)});
+    }
+    survey.ambiances = std::move(ambiances);
+    survey.maintenance = settings.maintenance;
+    const std::vector<Place> all = places_of(survey);
+    read_places(scene, caster, map, all, settings.meter, survey);
+    add_rays(scene, caster, map, settings, survey);
+    if (settings.error > 0) reach_error(scene, caster, map, all, settings, survey);
+    survey.map = std::move(map);
+    survey.caustics = share_of_caustics(scene, survey.map);
+    if (survey.caustics > 0.02)
+        survey.warnings.push_back(
+            text_of("%.1f %% of the reflected light came over mirrors or lenses straight from a point, spot or sun; "
+                    "sensors do not see such light arrive (they see it on surfaces around)",
+                    100 * survey.caustics));
+    return survey;
+}
+
+Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance, float maintenance) {
+    return statistics_of(measured.readings, values_of(measured, scene, ambiance, maintenance),
+                         measured.set.kind == SensorSet::Kind::surface);
+}
+
+std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance,
+                             float maintenance) {
+    std::vector<Value> values;
+    for (const Reading& reading : measured.readings)
+        values.push_back(value_of(reading, scene, ambiance.factors, maintenance));
+    return values;
+}
+
+}  // namespace lw

@@ -1,0 +1,58 @@
+// A whole survey: all sets of sensors read, for any number of ambiances; more rays and more photons until the error
+// asked for is reached.
+#pragma once
+#include <optional>
+
+#include "measure/light_meter.h"
+#include "measure/statistics.h"
+
+namespace lw {
+
+/// A named set of powers.
+struct Ambiance {
+    std::string name;
+    std::vector<float> factors;  // per lamp, of the power in the file
+};
+
+/// "NAME: LAMP=FACTOR, LAMP=FACTOR ..." (lamps not named stay at 1). Throws Error for an unknown lamp.
+Ambiance parse_ambiance(const std::string& text, const Scene& scene);
+
+struct MeasuredSet {
+    SensorSet set;
+    std::vector<Reading> readings;
+};
+
+struct SurveySettings {
+    MeterSettings meter;
+    double error = 0;           // largest half width of the 90 % interval over the value; 0: whatever the photons give
+    double ray_error = 0.02;    // part of that which rays may leave; a sensor gets more of them until it is reached
+    uint most_rays = 1u << 14;  // per sensor; 16 times as many with `error`
+    uint64_t most_photons = 64'000'000;
+    float maintenance = 1;  // part of the lamps' light that is left (maintenance factor)
+};
+
+struct Survey {
+    std::vector<MeasuredSet> sets;
+    std::vector<Ambiance> ambiances;
+    float maintenance = 1;
+    PhotonMap map;         // that was read last
+    uint64_t bakes = 0;    // maps made to reach the error
+    double caustics = 0;   // share_of_caustics() of that map
+    size_t unreached = 0;  // sensors whose error stayed above the one asked for
+    std::vector<std::string> warnings;
+};
+
+/// Reads the sets from `map`; sensors are read again with four times the rays until the rays' part of the error is
+/// small enough. With settings.error the scene is baked again with the photons that the rest needs, at the map's own
+/// settings. Sensors under 1 lx, and blocked ones, are not waited for. Throws Error when interrupted.
+Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
+                   std::vector<Ambiance> ambiances, const SurveySettings& settings);
+
+/// The sums of one set in one ambiance.
+Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance, float maintenance);
+
+/// The values of one set in one ambiance.
+std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance,
+                             float maintenance);
+
+}  // namespace lw

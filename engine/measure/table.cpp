@@ -1,0 +1,110 @@
+#include "measure/table.h"
+
+#include <cstdio>
+
+namespace lw {
+namespace {
+
+std::string format(const char* pattern, auto... values) {
+    char text[512];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+}
+
+/// A cell, quoted when it needs to be (RFC 4180).
+std::string quoted(const std::string& text) {
+    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+    std::string result = "\"";
+    for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return result + "\"";
+}
+
+const char* name_of(SensorSet::Kind kind) {
+    return kind == SensorSet::Kind::points ? "point" : kind == SensorSet::Kind::grid ? "grid" : "surface";
+}
+
+const char* name_of(Response response) { return response == Response::planar ? "planar" : "cylindrical"; }
+
+std::string verdict_of(const MeasuredSet& measured, const Statistics& statistics) {
+    if (measured.set.task.empty()) return "";
+    return name_of(judge(statistics, find_task(measured.set.task)).both());
+}
+
+std::string row_of(const MeasuredSet& measured, size_t i, const Ambiance& ambiance, const Survey& survey,
+                   const Scene& scene) {
+    const Sensor& sensor = measured.set.sensors[i];
+    const Reading& reading = measured.readings[i];
+    const Value value = value_of(reading, scene, ambiance.factors, survey.maintenance);
+    const glm::dvec3 at = glm::dvec3(sensor.position) + scene.origin;
+    std::string row = quoted(measured.set.name) + "," + name_of(measured.set.kind) + "," +
+                      quoted(name_of_sensor(measured.set, i)) +
+                      format(",%.6g,%.6g,%.6g,%.4g,%.4g,%.4g,", at.x, at.y, at.z, double(sensor.normal.x),
+                             double(sensor.normal.y), double(sensor.normal.z)) +
+                      name_of(sensor.response) + "," + quoted(ambiance.name) +
+                      format(",%.5g,%.5g,%.5g,%.3g,%.3g,", value.lux, std::max(value.lux - value.half_width, 0.0),
+                             value.lux + value.half_width, value.ray_error, value.photon_error);
+    if (reading.on_surface) row += format("%.5g", photon_map_lux(reading, ambiance.factors, survey.maintenance));
+    row += format(",%.0f,", double(reading.photons)) + quoted(value.doubt);
+    for (size_t lamp = 0; lamp < scene.lights.size(); ++lamp)
+        row += format(",%.5g", lux_of_lamp(reading, scene, lamp) * double(ambiance.factors[lamp] * survey.maintenance));
+    return row + "\n";
+}
+
+}  // namespace
+
+std::string name_of_sensor(const SensorSet& set, size_t i) {
+    if (i < set.sensor_names.size()) return set.sensor_names[i];
+    if (set.kind != SensorSet::Kind::grid) return std::to_string(i + 1);
+    return std::to_string(i / set.grid.columns + 1) + "," + std::to_string(i % set.grid.columns + 1);
+}
+
+std::string sensors_as_csv(const Survey& survey, const Scene& scene) {
+    std::string text =
+        "field,kind,sensor,x,y,z,nx,ny,nz,response,ambiance,lux,low,high,ray_error,photon_error,photon_map_lux,photons,"
+        "doubt";
+    for (const std::string& name : scene.light_names) text += "," + quoted("lux of " + name);
+    text += "\n";
+    for (const MeasuredSet& measured : survey.sets)
+        for (const Ambiance& ambiance : survey.ambiances)
+            for (size_t i = 0; i < measured.readings.size(); ++i) text += row_of(measured, i, ambiance, survey, scene);
+    return text;
+}
+
+std::string fields_as_csv(const Survey& survey, const Scene& scene) {
+    std::string text =
+        "field,task,ambiance,count,blocked,doubtful,Emin,Emin_half_width,Eavg,Eavg_half_width,Emax,Emax_half_width,U0,"
+        "U0_half_width,Ud,Ud_half_width,required_lux,required_U0,verdict\n";
+    for (const MeasuredSet& measured : survey.sets)
+        for (const Ambiance& ambiance : survey.ambiances) {
+            const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
+            text += quoted(measured.set.name) + "," + measured.set.task + "," + quoted(ambiance.name) +
+                    format(",%zu,%zu,%zu", s.count, s.blocked, s.doubtful);
+            for (const Estimate& e : {s.minimum, s.average, s.maximum, s.u0, s.ud})
+                text += format(",%.5g,%.3g", e.value, e.half_width);
+            const Task task = measured.set.task.empty() ? Task{} : find_task(measured.set.task);
+            text += measured.set.task.empty()
+                        ? ",,,\n"
+                        : format(",%g,%g,%s\n", task.illuminance, task.uniformity, verdict_of(measured, s).c_str());
+        }
+    return text;
+}
+
+std::string fields_as_text(const Survey& survey, const Scene& scene) {
+    std::string text = format("%-16s %-12s %6s %16s %16s %16s %14s %6s  %s\n", "field", "ambiance", "points", "Eavg lx",
+                              "Emin lx", "Emax lx", "U0", "Ud", "task");
+    const auto lux = [](Estimate e) { return format("%.4g +- %.2g", e.value, e.half_width); };
+    for (const MeasuredSet& measured : survey.sets)
+        for (const Ambiance& ambiance : survey.ambiances) {
+            const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
+            text += format("%-16s %-12s %6zu %16s %16s %16s %14s %6.2f  %s %s", measured.set.name.c_str(),
+                           ambiance.name.c_str(), s.count, lux(s.average).c_str(), lux(s.minimum).c_str(),
+                           lux(s.maximum).c_str(), format("%.2f +- %.2f", s.u0.value, s.u0.half_width).c_str(),
+                           s.ud.value, measured.set.task.c_str(), verdict_of(measured, s).c_str());
+            if (s.blocked > 0) text += format("  (%zu points inside objects left out)", s.blocked);
+            if (s.doubtful > 0) text += format("  (%zu doubtful)", s.doubtful);
+            text += "\n";
+        }
+    return text;
+}
+
+}  // namespace lw

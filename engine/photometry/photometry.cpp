@@ -1,0 +1,144 @@
+#include "photometry/photometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "base/error.h"
+
+namespace lw {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double degrees = 180 / pi;
+constexpr double largest_difference = 0.1;  // between the flux of a file and what it states
+
+/// A plane the file gives for one that follows by symmetry; C in [0, 360).
+double folded(const std::vector<double>& planes, double c) {
+    const double first = planes.front(), last = planes.back();
+    if (planes.size() == 1) return first;
+    if (first == -90) {  // C270 to C90
+        if (c > 270) return c - 360;
+        return c > 90 ? 180 - c : c;
+    }
+    if (first == 90) {  // C90 to C270
+        if (c < 90) return 180 - c;
+        return c > 270 ? 540 - c : c;
+    }
+    if (last == 90) {
+        c = c > 180 ? 360 - c : c;
+        return c > 90 ? 180 - c : c;
+    }
+    return last == 180 && c > 180 ? 360 - c : c;
+}
+
+/// Index of the interval of rising `values` that holds x, and where in it; false outside.
+bool locate(const std::vector<double>& values, double x, size_t& index, double& share) {
+    constexpr double rounding = 1e-9;
+    if (x < values.front() - rounding || x > values.back() + rounding) return false;
+    if (values.size() == 1) {
+        index = 0, share = 0;
+        return true;
+    }
+    const auto above = std::upper_bound(values.begin() + 1, values.end() - 1, x);
+    index = size_t(above - values.begin()) - 1;
+    share = std::clamp((x - values[index]) / (values[index + 1] - values[index]), 0.0, 1.0);
+    return true;
+}
+
+double interpolated(const Photometry& p, double horizontal, double vertical) {
+    size_t h = 0, v = 0;
+    double fh = 0, fv = 0;
+    if (!locate(p.vertical, vertical, v, fv) || !locate(p.horizontal, horizontal, h, fh)) return 0;
+    const size_t rows = p.vertical.size(), h1 = std::min(h + 1, p.horizontal.size() - 1),
+                 v1 = std::min(v + 1, rows - 1);
+    const auto at = [&](size_t i, size_t j) { return p.candela[i * rows + j]; };
+    return (at(h, v) * (1 - fv) + at(h, v1) * fv) * (1 - fh) + (at(h1, v) * (1 - fv) + at(h1, v1) * fv) * fh;
+}
+
+void check_flux(const Photometry& photometry, const std::string& name) {
+    const double flux = flux_of(photometry), stated = photometry.stated_output;
+    if (!(flux > 0)) throw Error(name + ": gives no light");
+    if (stated > 0 && std::abs(flux / stated - 1) > largest_difference)
+        throw Error(name + ": its intensities give " + std::to_string(int(flux)) + " lm but it states " +
+                    std::to_string(int(stated)) + " lm");
+}
+
+}  // namespace
+
+double candela_at(const Photometry& p, glm::dvec3 d) {
+    if (p.type == Photometry::Type::C) {
+        double c = std::atan2(d.y, d.x) * degrees;
+        if (c < 0) c += 360;
+        return interpolated(p, folded(p.horizontal, c), std::acos(std::clamp(-d.z, -1.0, 1.0)) * degrees);
+    }
+    // Goniometers with an upright (A) or a lying (B) polar axis; only what is in front of the luminaire.
+    if (d.z >= 0) return 0;
+    double horizontal = p.type == Photometry::Type::A ? std::atan2(d.x, -d.z) : std::asin(std::clamp(d.x, -1.0, 1.0));
+    double vertical = p.type == Photometry::Type::A ? std::asin(std::clamp(d.y, -1.0, 1.0)) : std::atan2(d.y, -d.z);
+    if (p.horizontal.front() >= 0) horizontal = std::abs(horizontal);
+    if (p.vertical.front() >= 0) vertical = std::abs(vertical);
+    return interpolated(p, p.horizontal.size() == 1 ? p.horizontal[0] : horizontal * degrees, vertical * degrees);
+}
+
+double flux_of(const Photometry& photometry) {
+    constexpr int rows = 360, columns = 360;  // half a degree, one degree
+    double flux = 0;
+    for (int row = 0; row < rows; ++row) {
+        const double low = pi * row / rows, high = pi * (row + 1) / rows, middle = (low + high) / 2;
+        const double area = (std::cos(low) - std::cos(high)) * 2 * pi / columns;
+        for (int column = 0; column < columns; ++column) {
+            const double c = 2 * pi * (column + 0.5) / columns;
+            flux += area * candela_at(photometry, {std::sin(middle) * std::cos(c), std::sin(middle) * std::sin(c),
+                                                   -std::cos(middle)});
+        }
+    }
+    return flux;
+}
+
+double light_output_ratio(const Photometry& photometry) {
+    return photometry.lamp_lumens > 0 ? flux_of(photometry) / photometry.lamp_lumens : 0;
+}
+
+std::string summary_of(const Photometry& photometry) {
+    char text[160];
+    const double strongest = *std::max_element(photometry.candela.begin(), photometry.candela.end());
+    std::snprintf(text, sizeof text, "%.4g lm, at most %.4g cd", flux_of(photometry), strongest);
+    std::string line = text;
+    if (photometry.lamp_lumens > 0) {
+        std::snprintf(text, sizeof text, ", light output ratio %.0f %% of %.5g lm",
+                      100 * light_output_ratio(photometry), photometry.lamp_lumens);
+        line += text;
+    }
+    if (photometry.color_temperature > 0) line += ", " + std::to_string(int(photometry.color_temperature)) + " K";
+    return line;
+}
+
+double tilt_factor(const Photometry& photometry, double angle) {
+    size_t i = 0;
+    double share = 0;
+    const std::vector<double>&angles = photometry.tilt_angles, &factors = photometry.tilt_factors;
+    if (angles.empty() || !locate(angles, angle, i, share)) return 1;
+    return angles.size() == 1 ? factors[0] : factors[i] * (1 - share) + factors[i + 1] * share;
+}
+
+Photometry read_photometry(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::error_code failure;
+    const uintmax_t bytes = std::filesystem::file_size(path, failure);
+    if (!stream || failure) throw Error(path.string() + ": cannot be opened");
+    if (bytes > 16'000'000) throw Error(path.string() + ": larger than 16 MB");
+    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    return parse_photometry(text, path.filename().string());
+}
+
+Photometry parse_photometry(const std::string& text, const std::string& name) {
+    std::string extension = std::filesystem::path(name).extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c + 32) : c;
+    const Photometry photometry = extension == ".ldt" ? parse_eulumdat(text, name) : parse_lm63(text, name);
+    check_flux(photometry, name);
+    return photometry;
+}
+
+}  // namespace lw

@@ -1,0 +1,78 @@
+#include "scene/gltf_profiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/profile.h"
+
+namespace lw {
+namespace {
+
+std::string text_of(const tinygltf::Value& object, const char* key) {
+    return object.Has(key) && object.Get(key).IsString() ? object.Get(key).Get<std::string>() : "";
+}
+
+Photometry photometry_in_buffer(const GltfFile& file, int view, const std::string& where) {
+    if (view < 0 || size_t(view) >= file.model.bufferViews.size()) file.fail(where + ": there is no such bufferView");
+    const tinygltf::BufferView& at = file.model.bufferViews[size_t(view)];
+    if (at.buffer < 0 || size_t(at.buffer) >= file.model.buffers.size()) file.fail(where + ": its buffer is missing");
+    const std::vector<unsigned char>& bytes = file.model.buffers[size_t(at.buffer)].data;
+    if (at.byteOffset > bytes.size() || at.byteLength > bytes.size() - at.byteOffset)
+        file.fail(where + ": its bufferView lies outside the buffer");
+    const auto first = bytes.begin() + ptrdiff_t(at.byteOffset);
+    return parse_photometry(std::string(first, first + ptrdiff_t(at.byteLength)), file.name + ": " + where);
+}
+
+Photometry photometry_of(const GltfFile& file, int index, const Scene& scene) {
+    const std::string where = "light profile " + std::to_string(index);
+    const auto root = file.model.extensions.find("EXT_lights_ies");
+    if (root == file.model.extensions.end() || !root->second.Has("lights") || !root->second.Get("lights").IsArray() ||
+        index < 0 || size_t(index) >= root->second.Get("lights").ArrayLen())
+        file.fail("there is no " + where);
+    const tinygltf::Value& profile = root->second.Get("lights").Get(index);
+    if (profile.Has("bufferView")) return photometry_in_buffer(file, index_of(profile, "bufferView", -1), where);
+    const std::string uri = text_of(profile, "uri");
+    if (uri.empty()) file.fail(where + ": has neither uri nor bufferView");
+    if (!uri.starts_with("data:")) return read_photometry(scene.path.parent_path() / decoded_uri(file, uri));
+    const size_t comma = uri.find(";base64,");
+    std::vector<unsigned char> bytes;
+    std::string mime;
+    const std::string plain = comma == std::string::npos ? "" : "data:application/octet-stream" + uri.substr(comma);
+    if (!tinygltf::DecodeDataURI(&bytes, mime, plain, 0, false)) file.fail(where + ": its data: address is not base64");
+    return parse_photometry(std::string(bytes.begin(), bytes.end()), file.name + ": " + where);
+}
+
+}  // namespace
+
+vec3 across_of(const PlacedNode& at, vec3 direction) {
+    const glm::dvec3 axis(direction), x(at.world[0]);
+    glm::dvec3 across = x - axis * glm::dot(x, axis);
+    if (!(glm::length(across) > 1e-9))
+        across = glm::cross(axis, std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0));
+    return vec3(glm::normalize(across));
+}
+
+void add_profile_light(GltfFile& file, const PlacedNode& at, Scene& scene) {
+    const tinygltf::Node& node = file.model.nodes[at.node];
+    const auto* extension = extension_of(node.extensions, "EXT_lights_ies");
+    if (!extension) return;
+    const std::string where = label("node", at.node, node.name);
+    const double multiplier = number_of(*extension, "multiplier", 1);
+    if (!(multiplier >= 0 && multiplier < 1e9))
+        file.fail(where + ": the multiplier of its light profile is negative or too large");
+    glm::dvec3 color(1);
+    if (extension->Has("color") && extension->Get("color").ArrayLen() == 3)
+        for (int c = 0; c < 3; ++c) color[c] = std::clamp(extension->Get("color").Get(c).GetNumberAsDouble(), 0.0, 1.0);
+    Light light{};
+    light.position = vec3(glm::dvec3(at.world[3]) - scene.origin);
+    if (!(length(glm::dvec3(light.position)) < 2 * most_metres)) file.fail(where + ": the position is too far away");
+    const glm::dvec3 aim = -glm::dvec3(at.world[2]);
+    light.direction = glm::length(aim) > 0 ? vec3(glm::normalize(aim)) : vec3(0, -1, 0);
+    light.across = across_of(at, light.direction);
+    attach_photometry(photometry_of(file, index_of(*extension, "light", -1), scene), light, scene);
+    light.intensity *= vec3(color * multiplier);
+    scene.lights.push_back(light);
+    scene.light_names.push_back(node.name.empty() ? "light_" + std::to_string(scene.lights.size()) : node.name);
+}
+
+}  // namespace lw

@@ -1,0 +1,180 @@
+// lumenwalk-measure: illuminance at points, on calculation grids and on objects, with 90 % intervals.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "file/map_file.h"
+#include "image/replaced_file.h"
+#include "maps/build.h"
+#include "measure/grid.h"
+#include "measure/report.h"
+#include "measure/survey.h"
+#include "measure/table.h"
+#include "photons/shoot.h"
+#include "scene/camera.h"
+#include "scene/gltf.h"
+#include "scene/profile.h"
+
+namespace {
+
+struct Options {
+    std::string scene, map, csv, fields_csv, report;
+    std::vector<std::string> points, grids, surfaces, photometry, powers, ambiances, cameras;
+    double error_percent = 0;
+    uint64_t photons = 0;
+    unsigned threads = 0;
+    lw::SurveySettings survey;
+};
+
+std::string misuse_of(const Options& o) {
+    if (o.points.empty() && o.grids.empty() && o.surfaces.empty())
+        return "say what to measure: --points, --grid or --surface";
+    if (o.photons > 0 && !o.map.empty()) return "--photons bakes, so it takes no MAP";
+    for (const std::string& power : o.powers)
+        if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
+    return "";
+}
+
+lw::PhotonMap map_of(const Options& o, const lw::Scene& scene, const lw::RayCaster& caster) {
+    if (o.photons == 0)
+        return lw::load_photon_map(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map), scene);
+    lw::BakeSettings settings;
+    settings.photons = o.photons;
+    return lw::build_photon_map(scene, caster, lw::shoot_photons(scene, caster, {settings.photons, settings.seed}),
+                                settings);
+}
+
+std::vector<lw::SensorSet> sets_of(const Options& o, const lw::Scene& scene) {
+    std::vector<lw::SensorSet> sets;
+    for (const std::string& path : o.points) sets.push_back(lw::read_points(path, scene));
+    for (const std::string& text : o.grids) sets.push_back(lw::make_grid(lw::parse_grid(text), scene));
+    for (const std::string& text : o.surfaces) sets.push_back(lw::make_surface(text, scene));
+    return sets;
+}
+
+std::vector<lw::Ambiance> ambiances_of(const Options& o, const lw::Scene& scene) {
+    std::vector<lw::Ambiance> ambiances;
+    if (o.ambiances.empty() || !o.powers.empty())
+        ambiances.push_back({o.powers.empty() ? "all" : "powers", lw::parse_powers(scene, o.powers)});
+    for (const std::string& text : o.ambiances) ambiances.push_back(lw::parse_ambiance(text, scene));
+    return ambiances;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+    if (path.empty()) return;
+    lw::ReplacedFile file(path);
+    file.stream() << text;
+    file.commit();
+    std::printf("wrote %s\n", path.c_str());
+}
+
+void measure(Options& o) {
+    const lw::ThreadLimit limit(o.threads);
+    o.survey.error = o.error_percent / 100;
+    const lw::Scene scene = lw::with_photometry(lw::load_gltf(o.scene), o.photometry);
+    for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    std::vector<lw::SensorSet> sets = sets_of(o, scene);
+    std::vector<lw::Ambiance> ambiances = ambiances_of(o, scene);
+    for (const std::string& path : {o.csv, o.fields_csv, o.report})
+        if (!path.empty()) lw::check_can_create(path);
+    for (const std::string& camera : o.cameras) lw::find_camera(scene, camera);
+    const lw::RayCaster caster(scene);
+    const lw::Survey survey =
+        lw::make_survey(scene, caster, map_of(o, scene, caster), std::move(sets), std::move(ambiances), o.survey);
+    for (const std::string& warning : survey.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    for (const std::string& text : o.photometry)
+        std::printf("%s: %s\n", text.c_str(),
+                    lw::summary_of(lw::read_photometry(text.substr(text.find('=') + 1))).c_str());
+    std::printf("%s", lw::fields_as_text(survey, scene).c_str());
+    std::printf("+- half the 90 %% interval; %.3g million photons%s, maintenance factor %g\n",
+                1e-6 * double(survey.map.stored_photons),
+                survey.bakes > 0 ? " (baked again for the error asked for)" : "", double(survey.maintenance));
+    write_text(o.csv, lw::sensors_as_csv(survey, scene));
+    write_text(o.fields_csv, lw::fields_as_csv(survey, scene));
+    if (!o.report.empty()) write_text(o.report, lw::report_as_html(survey, scene, caster, o.cameras));
+}
+
+std::string list_of_tasks() {
+    std::string text = "Tasks (EN 12464-1:2011; Em in lx, U0):\n";
+    for (const lw::Task& task : lw::known_tasks()) {
+        char line[160];
+        std::snprintf(line, sizeof line, "  %-15s %4g  %.1f  %s\n", task.name.c_str(), task.illuminance,
+                      task.uniformity, task.what.c_str());
+        text += line;
+    }
+    return text;
+}
+
+void add_options(CLI::App& app, Options& o) {
+    app.add_option("scene", o.scene, "glTF 2.0 file, .gltf or .glb")->required();
+    app.add_option("map", o.map, "photon map (default: beside the scene, .pmap)");
+    app.add_option("--points", o.points, "CSV file of rows name,x,y,z[,nx,ny,nz[,planar|cylindrical]] in metres, Y up")
+        ->allow_extra_args(false);
+    app.add_option("--grid", o.grids,
+                   "\"NAME: X,Y,Z to X,Y,Z [facing=+y] [margin=M] [spacing=M] [kind=cylindrical] [task=TASK]\": a "
+                   "rectangle across its direction; spacing after EN 12464-1 unless given; metres")
+        ->allow_extra_args(false);
+    app.add_option(
+           "--surface", o.surfaces,
+           "\"OBJECT[: [facing=+y] [count=64] [task=TASK]]\": points spread evenly over an object's front faces")
+        ->allow_extra_args(false);
+    app.add_option("--ambiance", o.ambiances, "\"NAME: LAMP=FACTOR, LAMP=FACTOR ...\"; may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--maintenance", o.survey.maintenance, "maintenance factor: part of the light that is left")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 1.0));
+    app.add_option("--error", o.error_percent,
+                   "percent: traces rays and bakes until half the 90 % interval of every sensor over 1 lx is below")
+        ->check(CLI::Range(0.2, 100.0));
+    app.add_option("--photons", o.photons, "bake this many photons in memory instead of reading MAP")
+        ->check(CLI::Range(uint64_t(1000), uint64_t(2'000'000'000)));
+    app.add_option("--most-photons", o.survey.most_photons, "largest bake of --error")
+        ->capture_default_str()
+        ->check(CLI::Range(uint64_t(1000), uint64_t(2'000'000'000)));
+    app.add_option("--rays", o.survey.meter.rays, "least rays per sensor; more are traced where they are the error")
+        ->capture_default_str()
+        ->check(CLI::Range(8u, 1u << 20));
+    app.add_option("--csv", o.csv, "file of one row per sensor and ambiance, with the share of each lamp");
+    app.add_option("--fields-csv", o.fields_csv, "file of one row per grid or surface and ambiance");
+    app.add_option("--report", o.report, "self-contained HTML report: tables, plans with isolux lines, camera views");
+    app.add_option("--camera", o.cameras, "camera to show in the report in false colours; may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--seed", o.survey.meter.seed, "seed of the random numbers")->capture_default_str();
+    app.add_option("--ies", o.photometry,
+                   "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
+                   "the same for bake and all "
+                   "programs that read the map; may be repeated")
+        ->allow_extra_args(false);
+    app.add_option("--threads", o.threads, "worker threads (0: all cores)")
+        ->capture_default_str()
+        ->check(CLI::Range(0u, 4096u));
+    app.footer(list_of_tasks());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app{"Measures illuminance in lux at points, on grids and on objects of a baked glTF building."};
+    add_options(app, options);
+    try {
+        app.parse(argc, argv);
+        const std::string misuse = misuse_of(options);
+        if (!misuse.empty()) throw CLI::ValidationError(misuse);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) ? 2 : 0;
+    }
+    try {
+        lw::watch_for_interrupt();
+        measure(options);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "lumenwalk-measure: %s\n", e.what());
+        return 1;
+    }
+    return 0;
+}
