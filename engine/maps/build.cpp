@@ -67,7 +67,8 @@ void fit_grid(SurfaceGrid& grid, const std::vector<Record>& photons, const uint*
     const auto count = double(last - first);
     const double cells = std::max(1.0, count / references_per_cell);
     double cell = std::sqrt(double(extent.x) * double(extent.y) / cells);
-    cell = std::max({cell, double(extent.x) / cells, double(extent.y) / cells});
+    // Few or coincident photons: no cells so small that a search over the radius visits thousands.
+    cell = std::max({cell, double(extent.x) / cells, double(extent.y) / cells, double(grid.radius) / 256});
     grid.cell_size = float(cell);
     grid.columns = uint(std::max(1.0, std::ceil(double(extent.x) / double(grid.cell_size))));
     grid.rows = uint(std::max(1.0, std::ceil(double(extent.y) / double(grid.cell_size))));
@@ -246,11 +247,12 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
         map.grids[m] = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
         fit_grid(map.grids[m], records, first(m), last(m));
     });
-    uint cells = 0;
+    uint64_t cells = 0;
     for (SurfaceGrid& grid : map.grids) {
-        grid.first_cell = cells;
-        cells += grid.columns * grid.rows;
+        grid.first_cell = uint(cells);
+        cells += uint64_t(grid.columns) * grid.rows;
     }
+    if (cells >= no_map) throw Error("photon map: more than 2^32 cells; use fewer photons");
     map.cell_starts.assign(cells + 1, uint(references.photons.size()));
     map.places.resize(references.photons.size());
     map.fluxes.resize(references.photons.size());

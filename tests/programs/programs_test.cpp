@@ -208,7 +208,7 @@ TEST(Bake, TellsProgressInPlainLinesAndLeavesTheOldMapWhenInterrupted) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     process.interrupt();
     const Outcome outcome = process.wait();
-    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.exit_code, 130);
     expect_plain_progress(outcome.err);
     EXPECT_EQ(read_text(folder / "old.pmap"), "the map of yesterday");
     EXPECT_EQ(folder.names(), Words{"old.pmap"});
