@@ -110,7 +110,7 @@ TEST(HostileMap, TenThousandSignedByteFlipsAreRefusedOrHarmless) {
     if (has_device) pictures.emplace();
     size_t accepted = 0, drawn = 0;
     for (const bool direct : {false, true}) {
-        const std::string whole = small_map(40, direct);
+        const std::string whole = small_map(20, direct);
         for (uint64_t i = 0; i < 5000; ++i) {
             Rng rng(7, direct, i);
             std::string damaged = whole;

@@ -111,7 +111,7 @@ void estimate_everywhere(const Scene& scene, const PhotonMap& map) {
         const PhotonEstimator estimator(scene, map, weights, {mode, 20, 1}, bvh);
         for (uint t = 0; t < scene.triangles.size(); ++t)
             for (float side : {1.0f, -1.0f})
-                for (const vec2 at : {vec2(0), vec2(1, 0), vec2(0, 1), vec2(0.3f, 0.3f)}) {
+                for (const vec2 at : {vec2(1, 0), vec2(0.3f, 0.3f)}) {
                     const Surface s = estimator.surface_at(t, at);
                     const Gathered light = estimator.estimate(t, at, s.geometric_normal * side);
                     require(is_light(light.irradiance) && is_light(light.radiance), "an estimate is no light");
