@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/replaced_file.h"
 #include "image/exr.h"
+#include "image/light_check.h"
 #include "number_option.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
@@ -51,6 +52,7 @@ void render(Options& options) {
     const std::vector<lw::vec3> weights = lw::light_weights(scene, lw::parse_powers(scene, options.powers));
     const lw::Reference reference =
         lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
+    lw::check_is_light(reference.image);
     lw::write_exr(options.output, reference.image);
     std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n", options.output.c_str(),
                 (unsigned long long)reference.samples, reference.relative_error);

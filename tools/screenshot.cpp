@@ -10,6 +10,7 @@
 #include "file/map_file.h"
 #include "gather/renderer.h"
 #include "image/exr.h"
+#include "image/light_check.h"
 #include "image/png.h"
 #include "number_option.h"
 #include "scene/camera.h"
@@ -134,6 +135,7 @@ void take_screenshot(const Options& o) {
     const lw::GatherSettings gather{gather_mode(o.gather), o.neighbours, o.shadow_rays};
     const lw::Rendering picture = renderer.render(camera, {gather, o.exposure, o.samples, o.frames});
     refuse_validation_messages(device);
+    lw::check_is_light(picture.image);
     write_picture(o.output, picture);
     std::printf("%s: %ux%u on %s, %.0f MiB on the device, EV %.2f\n", o.output.c_str(), size.width, size.height,
                 device.name().c_str(), double(resident.bytes()) / 1048576.0, double(picture.exposure_ev));

@@ -60,7 +60,7 @@ TEST(FailingMachines, ABakeEndedAtAnyMomentLeavesTheOldMapAndNothingElse) {
 
 TEST(FailingMachines, AnInterruptWhileAFileIsHalfWrittenRemovesIt) {
     const TempFolder folder;
-    const Process baking("bake", {scene_path("cube.gltf"), "-o", folder / "map", "--photons", "3000000"});
+    const Process baking("bake", {scene_path("cube.gltf"), "-o", folder / "map", "--photons", "1000000"});
     const auto start = std::chrono::steady_clock::now();
     const auto is_writing = [&] {
         for (const std::string& name : folder.names())
@@ -148,6 +148,50 @@ TEST(FailingMachines, OptionsThatAreNoNumberAreRefusedWith2) {
         EXPECT_EQ(run("reference", {scene, "-o", "/nowhere/x.exr", "--time", value}).exit_code, 2) << value;
         EXPECT_EQ(run("reference", {scene, "-o", "/nowhere/x.exr", "--error", value}).exit_code, 2) << value;
     }
+}
+
+/// A variable of the environment while it lives; programs started meanwhile see it.
+class Variable {
+  public:
+    Variable(const char* name, const char* value) : name_(name) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        setenv(name, value, 1);
+    }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+    ~Variable() { before_.empty() ? unsetenv(name_) : setenv(name_, before_.c_str(), 1); }
+
+  private:
+    const char* name_;
+    std::string before_;
+};
+
+TEST(FailingMachines, WithoutVulkanOrItsLayersOneLineSaysWhatToInstall) {
+    const TempFolder folder;
+    const std::string scene = scene_path("cube.gltf");
+    ASSERT_EQ(run("bake", {scene, "-o", folder / "map", "--photons", "1000"}).exit_code, 0);
+    const Words words{scene, folder / "map", "-o", folder / "made.png", "--size", "8x8"};
+    {
+        const Variable drivers("VK_ICD_FILENAMES", "/nowhere.json"), newer("VK_DRIVER_FILES", "/nowhere.json");
+        const Outcome outcome = run("screenshot", words);
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_TRUE(contains(outcome.err, "lumenwalk-screenshot: Vulkan:")) << outcome.err;
+        EXPECT_EQ(run("screenshot", {"--list-devices"}).exit_code, 0);
+    }
+    const Variable layers("VK_LAYER_PATH", "/nowhere");
+    Words checked = words;
+    checked.push_back("--validation");
+    EXPECT_TRUE(contains(run("screenshot", checked).err, "is not installed (vulkan-validationlayers)"));
+    EXPECT_EQ(folder.names(), Words{"map"});
+}
+
+TEST(FailingMachines, AnOddEnvironmentChangesNothing) {
+    const TempFolder folder;
+    const std::string scene = scene_path("cube.gltf");
+    ASSERT_EQ(run("bake", {scene, "-o", folder / "plain", "--photons", "1000"}).exit_code, 0);
+    const Variable locale("LC_ALL", "de_DE.UTF-8"), home("HOME", "/nowhere");
+    ASSERT_EQ(run("bake", {scene, "-o", folder / "odd", "--photons", "1000"}).exit_code, 0);
+    EXPECT_TRUE(read_text(folder / "plain") == read_text(folder / "odd"));
 }
 
 }  // namespace
