@@ -64,8 +64,8 @@ Room two_rooms(double wall, bool small_triangles) {
 }
 
 TEST(Light, NeverComesThroughAClosedWallOfAMillimetre) {
-    for (bool small_triangles : {false, true}) {
-        const Room room = two_rooms(0.001, small_triangles);
+    for (const auto& [wall, small_triangles] : {std::pair(0.001, false), {0.001, true}, {0.0, false}, {0.0, true}}) {
+        const Room room = two_rooms(wall, small_triangles);  // of 0 m: two sheets in one place
         const Baked baked(room, 200'000, 1, true);
         for (const Photon& photon : baked.photons.records)
             ASSERT_LT(double(photon.position.x) + baked.scene.origin.x, 4.0005);

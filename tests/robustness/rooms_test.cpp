@@ -7,6 +7,7 @@
 #include <map>
 
 #include "gather/renderer.h"
+#include "maps/build.h"
 #include "maps/estimate.h"
 #include "programs/lavapipe.h"
 #include "robustness/room.h"
@@ -185,6 +186,37 @@ TEST_P(Robustness, TheRoomHasTheSameLight) {
         EXPECT_GT(d.compared, 550u) << mode_names[mode];
         EXPECT_NEAR(d.mean_ratio, 1, 0.01) << mode_names[mode];
         EXPECT_LE(d.rmse, 2 * expected(mode).noise) << mode_names[mode];
+    }
+}
+
+TEST(RobustnessOfNodes, AShearedNodeIsTheShearOfItsVertices) {
+    glm::dmat4 shear(1);
+    shear[1][0] = 0.4, shear[2][1] = -0.3, shear[0][0] = -1;  // mirrored too
+    const auto move = [&](glm::dvec3 p) { return glm::dvec3(shear * glm::dvec4(p, 1)); };
+    const Room by_node = with_node(shear);
+    Room by_vertices = plain_room();
+    for (Soup* soup : {&by_vertices.walls, &by_vertices.block, &by_vertices.panel}) {
+        *soup = moved(*soup, move);
+        for (Corners& t : *soup) std::swap(t[1], t[2]);  // what the mirror turned over
+    }
+    by_vertices.lamp = move(by_vertices.lamp), by_vertices.eye = move(by_vertices.eye);
+    const Baked a(by_node), b(by_vertices);
+    ASSERT_EQ(a.scene.triangles.size(), b.scene.triangles.size());
+    const double areas[] = {area_of(a.scene), area_of(b.scene)};
+    EXPECT_NEAR(areas[0] / areas[1], 1, 1e-5);
+    double sums[2] = {0, 0};
+    for (const Photon& p : a.photons.records) sums[0] += double(p.flux.y);
+    for (const Photon& p : b.photons.records) sums[1] += double(p.flux.y);
+    EXPECT_NEAR(sums[0] / sums[1], 1, 0.01);
+    EXPECT_NEAR(double(length(a.scene.lights[0].position - b.scene.lights[0].position)), 0, 1e-4);
+    for (size_t v = 0; v < a.scene.positions.size(); ++v)
+        ASSERT_NEAR(double(std::abs(dot(a.scene.normals[v], a.scene.normals[v]))), 1, 1e-4);
+    for (uint t = 0; t < a.scene.triangles.size(); ++t) {
+        const SurfaceReader first(a.scene), second(b.scene);
+        EXPECT_GT(
+            dot(first.surface_at(t, vec2(0.3f)).geometric_normal, second.surface_at(t, vec2(0.3f)).geometric_normal),
+            0.999f)
+            << t;
     }
 }
 
