@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstddef>
 #include <thread>
+#include <vector>
 
 namespace lw {
 
@@ -24,45 +25,44 @@ class ThreadLimit {
 };
 
 #if defined(__SANITIZE_THREAD__)
-/// Tells ThreadSanitizer what it cannot see in TBB, which is not instrumented: what comes before a loop happens before
-/// its bodies, and these before what follows. Bodies stay unordered among themselves.
-class LoopOrder {
-  public:
-    LoopOrder() { begun_.store(true, std::memory_order_release); }
-    ~LoopOrder() { ended_.load(std::memory_order_acquire); }
-    void begin_body() { begun_.load(std::memory_order_acquire); }
-    void end_body() { ended_.fetch_add(1, std::memory_order_release); }
 
-  private:
-    std::atomic<bool> begun_{false};
-    std::atomic<size_t> ended_{0};
-};
+// ThreadSanitizer cannot see the locks of TBB, which is not instrumented: the same loops on plain threads, every body
+// in any order.
+template <class Body>
+void parallel_for(size_t count, const Body& body, size_t grain = 1) {
+    std::atomic<size_t> next{0};
+    const auto work = [&] {
+        for (size_t begin; (begin = next.fetch_add(grain, std::memory_order_relaxed)) < count;)
+            for (size_t i = begin; i < std::min(begin + grain, count); ++i) body(i);
+    };
+    const size_t most = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    std::vector<std::thread> threads;
+    for (size_t t = 1; t < std::min(most, count); ++t) threads.emplace_back(work);
+    work();
+    for (std::thread& thread : threads) thread.join();
+}
+
+template <class Iterator, class Less>
+void parallel_sort(Iterator first, Iterator last, const Less& less) {
+    std::sort(first, last, less);
+}
+
 #else
-struct LoopOrder {
-    void begin_body() {}
-    void end_body() {}
-};
-#endif
 
 /// Calls body(i) for i in [0, count), in any order, on any thread. body must not throw for control flow.
 template <class Body>
 void parallel_for(size_t count, const Body& body, size_t grain = 1) {
-    LoopOrder order;
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain), [&](const tbb::blocked_range<size_t>& range) {
-        order.begin_body();
         for (size_t i = range.begin(); i != range.end(); ++i) body(i);
-        order.end_body();
     });
 }
 
 /// Sorts [first, last) by a strict total order, so that the result does not depend on the thread count.
 template <class Iterator, class Less>
 void parallel_sort(Iterator first, Iterator last, const Less& less) {
-#if defined(__SANITIZE_THREAD__)
-    std::sort(first, last, less);
-#else
     tbb::parallel_sort(first, last, less);
-#endif
 }
+
+#endif
 
 }  // namespace lw
