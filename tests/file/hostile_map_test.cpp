@@ -121,11 +121,11 @@ TEST(HostileMap, TenThousandSignedByteFlipsAreRefusedOrHarmless) {
             ASSERT_NO_THROW(map = feed(damaged)) << "flip " << i << " of " << direct;
             if (!map) continue;
             ++accepted;
-            if (pictures && accepted % 100 == 0) ++drawn, pictures->expect_light(*map);
+            if (pictures && accepted % 500 == 0) ++drawn, pictures->expect_light(*map);
         }
     }
     EXPECT_GT(accepted, 1000u);
-    EXPECT_TRUE(!has_device || drawn > 10) << drawn;
+    EXPECT_TRUE(!has_device || drawn > 3) << drawn;
 }
 
 }  // namespace
