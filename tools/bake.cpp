@@ -10,11 +10,14 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/interrupt.h"
+#include "base/memory.h"
 #include "base/parallel.h"
-#include "base/progress.h"
+#include "base/replaced_file.h"
 #include "file/map_file.h"
-#include "image/replaced_file.h"
+#include "maps/bake_memory.h"
 #include "maps/build.h"
+#include "number_option.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
 #include "scene/profile.h"
@@ -29,6 +32,7 @@ struct Options {
     std::vector<std::string> photometry;
     float neighbour_angle_deg = 60;
     unsigned threads = 0;
+    double memory_gb = 0;
 };
 
 /// Seconds since the last call, of the clock and of all processor cores, printed with the name of the phase that ended.
@@ -99,7 +103,9 @@ void bake(const Options& options) {
     PhaseClock clock;
     const lw::Scene scene = lw::with_photometry(lw::load_gltf(options.scene), options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-    lw::check_can_create(output);
+    lw::check_can_create(output, {options.scene});
+    lw::check_bake_fits(scene, settings,
+                        options.memory_gb > 0 ? uint64_t(options.memory_gb * 1e9) : lw::available_memory());
     clock.finish("load");
     const lw::RayCaster caster(scene);
     clock.finish("hierarchy");
@@ -108,7 +114,6 @@ void bake(const Options& options) {
     clock.finish("trace");
     const lw::PhotonMap map = lw::build_photon_map(scene, caster, photons, settings);
     clock.finish("maps");
-    lw::check_interrupt();
     lw::save_photon_map(output, map);
     clock.finish("write");
     print_lights(scene, photons);
@@ -132,7 +137,7 @@ int main(int argc, char** argv) {
     app.add_option("--neighbour-angle", options.neighbour_angle_deg,
                    "largest angle in degrees between the normals of a photon and a map")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 89.0));
+        ->check(lw::finite_number(0, 89));
     app.add_option("--direct", options.direct,
                    "direct light of point, spot and directional lamps: exact (shadow rays at render time) or photons "
                    "(the paper)")
@@ -147,6 +152,10 @@ int main(int argc, char** argv) {
     app.add_option("--threads", options.threads, "worker threads (0: all cores)")
         ->capture_default_str()
         ->check(CLI::Range(0u, 4096u));
+    app.add_option(
+           "--memory", options.memory_gb,
+           "gigabytes the bake may take; more is refused at the start (default: what the machine has available)")
+        ->check(lw::finite_number(1e-3, 1e6));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

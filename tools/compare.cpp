@@ -4,6 +4,8 @@
 #include <exception>
 
 #include "base/error.h"
+#include "base/interrupt.h"
+#include "base/replaced_file.h"
 #include "image/compare.h"
 #include "image/exr.h"
 #include "image/png.h"
@@ -53,6 +55,7 @@ void print_json(const lw::Comparison& comparison) {
 void run(const Options& options) {
     lw::Image picture = lw::read_exr(options.picture);
     lw::Image reference = lw::read_exr(options.reference);
+    if (!options.difference.empty()) lw::check_can_create(options.difference, {options.picture, options.reference});
     try {
         lw::Comparison comparison = lw::compare(picture, reference, options.channel);
         options.json ? print_json(comparison) : print_text(comparison);
@@ -73,6 +76,7 @@ int main(int argc, char** argv) {
     add_options(app, options);
     try {
         app.parse(argc, argv);
+        lw::watch_for_interrupt();
         run(options);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : 2;

@@ -4,10 +4,12 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/parallel.h"
-#include "base/progress.h"
+#include "base/replaced_file.h"
 #include "image/exr.h"
-#include "image/replaced_file.h"
+#include "image/light_check.h"
+#include "number_option.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "scene/profile.h"
@@ -46,11 +48,12 @@ void render(Options& options) {
         options.settings.samples = options.settings.seconds > 0 || options.settings.error > 0 ? 1u << 20 : 256;
     const lw::Scene scene = lw::with_photometry(lw::load_gltf(options.scene), options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-    lw::check_can_create(options.output);
+    lw::check_can_create(options.output, {options.scene});
     const lw::RayCaster caster(scene);
     const std::vector<lw::vec3> weights = lw::light_weights(scene, lw::parse_powers(scene, options.powers));
     const lw::Reference reference =
         lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
+    lw::check_is_light(reference.image);
     lw::write_exr(options.output, reference.image);
     std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n", options.output.c_str(),
                 (unsigned long long)reference.samples, reference.relative_error);
@@ -74,10 +77,11 @@ int main(int argc, char** argv) {
     app.add_option("--samples", options.settings.samples,
                    "paths per pixel (default 256, without limit when --time or --error is given)")
         ->check(CLI::Range(1, 1 << 30));
-    app.add_option("--time", options.settings.seconds, "stop after this many seconds")->check(CLI::Range(1e-3, 1e9));
+    app.add_option("--time", options.settings.seconds, "stop after this many seconds")
+        ->check(lw::finite_number(1e-3, 1e9));
     app.add_option("--error", options.settings.error,
                    "stop at this relative standard error of the picture, such as 0.01")
-        ->check(CLI::Range(1e-6, 1e3));
+        ->check(lw::finite_number(1e-6, 1e3));
     app.add_option("--power", options.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
         ->allow_extra_args(false);
     app.add_flag("!--no-illuminance", options.settings.illuminance,

@@ -5,11 +5,14 @@
 #include <iostream>
 
 #include "base/error.h"
+#include "base/interrupt.h"
+#include "base/replaced_file.h"
 #include "file/map_file.h"
 #include "gather/renderer.h"
 #include "image/exr.h"
+#include "image/light_check.h"
 #include "image/png.h"
-#include "image/replaced_file.h"
+#include "number_option.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "scene/profile.h"
@@ -51,7 +54,7 @@ void add_options(CLI::App& app, Options& o) {
                    "shadow rays per pixel and emissive mesh; 0: none at all, shadows as sharp as the bake's lattice")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
-    app.add_option("--exposure", o.exposure, "EV100; default: from the picture");
+    app.add_option("--exposure", o.exposure, "EV100; default: from the picture")->check(lw::finite_number(-100, 100));
     app.add_option("--samples", o.samples, "views averaged per pixel")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
@@ -126,9 +129,9 @@ void take_screenshot(const Options& o) {
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
     const lw::Camera& camera = lw::find_camera(scene, o.camera);
     const std::vector<float> factors = lw::parse_powers(scene, o.powers);
-    const lw::PhotonMap map =
-        lw::load_photon_map(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map), scene);
-    lw::check_can_create(o.output);
+    const std::filesystem::path map_path = o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map);
+    const lw::PhotonMap map = lw::load_photon_map(map_path, scene);
+    lw::check_can_create(o.output, {o.scene, map_path});
     const lw::Device device({o.device, o.validation});
     const lw::Bvh bvh = lw::build_bvh(scene);
     lw::Resident resident(device, scene, map, bvh);
@@ -138,6 +141,7 @@ void take_screenshot(const Options& o) {
     const lw::GatherSettings gather{gather_mode(o.gather), o.neighbours, o.shadow_rays};
     const lw::Rendering picture = renderer.render(camera, {gather, o.exposure, o.samples, o.frames});
     refuse_validation_messages(device);
+    lw::check_is_light(picture.image);
     write_picture(o.output, picture);
     std::printf("%s: %ux%u on %s, %.0f MiB on the device, EV %.2f\n", o.output.c_str(), size.width, size.height,
                 device.name().c_str(), double(resident.bytes()) / 1048576.0, double(picture.exposure_ev));
@@ -159,6 +163,7 @@ int main(int argc, char** argv) {
         return app.exit(wrong) == 0 ? 0 : 2;
     }
     try {
+        lw::watch_for_interrupt();
         options.lists() ? print_lists(options) : take_screenshot(options);
     } catch (const std::exception& failure) {
         std::cerr << "lumenwalk-screenshot: " << failure.what() << "\n";

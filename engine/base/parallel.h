@@ -5,8 +5,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <thread>
+#include <vector>
 
 namespace lw {
 
@@ -21,6 +24,31 @@ class ThreadLimit {
     tbb::global_control control_;
 };
 
+#if defined(__SANITIZE_THREAD__)
+
+// ThreadSanitizer cannot see the locks of TBB, which is not instrumented: the same loops on plain threads, every body
+// in any order.
+template <class Body>
+void parallel_for(size_t count, const Body& body, size_t grain = 1) {
+    std::atomic<size_t> next{0};
+    const auto work = [&] {
+        for (size_t begin; (begin = next.fetch_add(grain, std::memory_order_relaxed)) < count;)
+            for (size_t i = begin; i < std::min(begin + grain, count); ++i) body(i);
+    };
+    const size_t most = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    std::vector<std::thread> threads;
+    for (size_t t = 1; t < std::min(most, count); ++t) threads.emplace_back(work);
+    work();
+    for (std::thread& thread : threads) thread.join();
+}
+
+template <class Iterator, class Less>
+void parallel_sort(Iterator first, Iterator last, const Less& less) {
+    std::sort(first, last, less);
+}
+
+#else
+
 /// Calls body(i) for i in [0, count), in any order, on any thread. body must not throw for control flow.
 template <class Body>
 void parallel_for(size_t count, const Body& body, size_t grain = 1) {
@@ -34,5 +62,7 @@ template <class Iterator, class Less>
 void parallel_sort(Iterator first, Iterator last, const Less& less) {
     tbb::parallel_sort(first, last, less);
 }
+
+#endif
 
 }  // namespace lw

@@ -2,28 +2,9 @@
 
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 
-#include "base/error.h"
-
 namespace lw {
-namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void note_signal(int) { interrupted = 1; }
-
-}  // namespace
-
-void watch_for_interrupt() {
-    std::signal(SIGINT, note_signal);
-    std::signal(SIGTERM, note_signal);
-}
-
-void check_interrupt() {
-    if (interrupted) throw Error("interrupted: nothing was written");
-}
 
 Progress::Progress(std::string what, uint64_t total)
     : what_(std::move(what)),
@@ -38,7 +19,6 @@ Progress::~Progress() {
 }
 
 void Progress::step(uint64_t units) {
-    check_interrupt();
     const uint64_t done = done_ += units;
     std::unique_lock lock(drawing_, std::try_to_lock);
     if (!lock) return;

@@ -1,5 +1,5 @@
 // Progress of long work: a redrawn line with rate and time left on a terminal, a plain line every
-// tenth in a pipe. Also the place where Ctrl-C is noticed: step() throws Error("interrupted").
+// tenth in a pipe.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -9,18 +9,12 @@
 
 namespace lw {
 
-/// Makes SIGINT and SIGTERM set a flag that Progress::step checks, instead of ending the process.
-void watch_for_interrupt();
-
-/// Throws Error("interrupted: ...") once a watched signal has arrived.
-void check_interrupt();
-
 /// Thread-safe counter of `total` units of work named `what`; prints to stderr.
 class Progress {
   public:
     Progress(std::string what, uint64_t total);
     ~Progress();
-    /// Adds finished units, redraws at most ten times a second; throws Error when interrupted.
+    /// Adds finished units, redraws at most ten times a second.
     void step(uint64_t units = 1);
 
   private:

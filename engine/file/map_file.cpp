@@ -1,15 +1,13 @@
 #include "file/map_file.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <system_error>
 
 #include "base/error.h"
-#include "base/random.h"
+#include "base/replaced_file.h"
+#include "file/checksum.h"
 
 namespace lw {
 namespace {
@@ -38,26 +36,6 @@ struct Header {
 };
 static_assert(sizeof(Header) == 160);
 constexpr size_t checked_from = offsetof(Header, scene_hash);
-
-/// 64-bit hash in the order of the bytes; the last word is padded with zeros.
-class Checksum {
-  public:
-    void add(const void* bytes, size_t size) {
-        const auto* p = static_cast<const unsigned char*>(bytes);
-        for (; size >= 8; p += 8, size -= 8) add_word(p, 8);
-        if (size) add_word(p, size);
-    }
-    uint64_t value() const { return mix64(state_); }
-
-  private:
-    void add_word(const unsigned char* p, size_t size) {
-        uint64_t word = 0;
-        std::memcpy(&word, p, size);
-        state_ = (state_ ^ word) * 0x9fb21c651e98df25ull;
-        state_ ^= state_ >> 32;
-    }
-    uint64_t state_ = 0x6c756d656e77616cull;
-};
 
 /// Calls visit(array) for the sections in file order; Map is PhotonMap or const PhotonMap.
 template <class Map, class Visit>
@@ -91,17 +69,22 @@ uint64_t checksum_of(const Header& header, const PhotonMap& map) {
 }
 
 constexpr float most_metres = 1e10f;     // beyond it, what the shaders compute from a place may not be a number
-constexpr float most_cells = 1e9f;       // across a search radius: the shaders count them in ints
+constexpr float most_cells = 512;        // across a search radius: the exact gather visits rings of them
+constexpr float farthest_cell = 1e8f;    // from the corner of a grid: the shaders count them in ints
 constexpr uint most_columns = 1u << 23;  // and rows: the shaders count them in floats
 
 bool is_place(float metres) { return std::abs(metres) < most_metres; }
 
-bool is_usable(const SurfaceGrid& g) {
+/// 2^-100 to 2^100: light divided by it stays a number.
+bool is_scale(float scale) { return scale >= 0x1p-100f && scale <= 0x1p100f; }
+
+bool is_usable(const SurfaceGrid& g, float scene_size) {
     const auto place = [](vec3 v) { return is_place(v.x) && is_place(v.y) && is_place(v.z); };
     const auto axis = [](vec3 v) { return std::abs(v.x) < 2 && std::abs(v.y) < 2 && std::abs(v.z) < 2; };
     return place(g.origin) && axis(g.u_axis) && axis(g.v_axis) && axis(g.normal) && place(g.quantum) &&
            is_place(g.h_origin) && is_place(g.cell_size) && g.cell_size > 0 && is_place(g.radius) && g.radius > 0 &&
-           g.radius <= most_cells * g.cell_size && g.columns <= most_columns && g.rows <= most_columns;
+           g.radius <= most_cells * g.cell_size && length(g.origin) + scene_size <= farthest_cell * g.cell_size &&
+           g.columns <= most_columns && g.rows <= most_columns;
 }
 
 /// Every grid but those of caustics has a lattice, and the map a value for each of their nodes.
@@ -119,12 +102,12 @@ void check_lattices(const std::filesystem::path& path, const PhotonMap& map) {
     if (nodes != map.coverage.size()) refuse(path, "lattices and coverage do not agree");
 }
 
-void check_grids(const std::filesystem::path& path, const PhotonMap& map) {
+void check_grids(const std::filesystem::path& path, const PhotonMap& map, const Scene& scene) {
     uint64_t cells = 0;
     for (size_t i = 0; i < map.grids.size(); ++i) {
         const SurfaceGrid& g = map.grids[i];
         const uint64_t here = uint64_t(g.columns) * g.rows;
-        if (!is_usable(g) || here == 0 || g.first_cell != cells || here > map.cell_starts.size() - cells)
+        if (!is_usable(g, scene.size()) || here == 0 || g.first_cell != cells || here > map.cell_starts.size() - cells)
             refuse(path, "grid " + std::to_string(i) + " is not valid");
         cells += here;
     }
@@ -143,7 +126,7 @@ void check_indices(const std::filesystem::path& path, const PhotonMap& map, cons
         refuse(path, "the number of triangles does not agree with the scene");
     if (map.fluxes.size() != map.places.size() || (map.has_directions() && map.directions.size() != map.places.size()))
         refuse(path, "the record arrays differ in length");
-    check_grids(path, map);
+    check_grids(path, map, scene);
     const size_t others = map.grids.size() - map.caustic_grids;
     for (size_t i = 0; i < map.triangle_maps.size(); ++i) {
         const uint index = map.triangle_maps[i];
@@ -170,9 +153,11 @@ Header read_header(std::ifstream& in, const std::filesystem::path& path, uint64_
         left -= bytes;
     }
     if (left) refuse(path, "it has bytes after its last section");
-    if (!(header.radius > 0) || !std::isfinite(header.radius) || !(header.flux_scale > 0) ||
-        !std::isfinite(header.flux_scale))
-        refuse(path, "its radius or flux scale is not valid");
+    if (!(header.radius > 0) || !is_place(header.radius) || !is_scale(header.flux_scale) ||
+        !is_scale(header.irradiance_scale))
+        refuse(path, "its radius, flux scale or irradiance scale is not valid");
+    if (!(header.neighbour_angle_deg >= 0 && header.neighbour_angle_deg <= 90) || header.direct_in_photons > 1)
+        refuse(path, "its settings are not valid");
     return header;
 }
 
@@ -198,22 +183,12 @@ void save_photon_map(const std::filesystem::path& path, const PhotonMap& map) {
     for_each_section(map, [&](const auto& section) { header.bytes[s++] = byte_size(section); });
     header.checksum = checksum_of(header, map);
 
-    std::filesystem::path part = path;
-    part += ".part" + std::to_string(getpid());
-    std::ofstream out(part, std::ios::binary);
-    if (!out) throw Error(path.string() + ": cannot be written here; choose another place with -o");
-    out.write(reinterpret_cast<const char*>(&header), sizeof header);
+    ReplacedFile file(path);
+    file.stream().write(reinterpret_cast<const char*>(&header), sizeof header);
     for_each_section(map, [&](const auto& section) {
-        out.write(reinterpret_cast<const char*>(section.data()), std::streamsize(byte_size(section)));
+        file.stream().write(reinterpret_cast<const char*>(section.data()), std::streamsize(byte_size(section)));
     });
-    out.close();
-    std::error_code failure;
-    if (out) std::filesystem::rename(part, path, failure);
-    if (!out || failure) {
-        std::error_code ignored;
-        std::filesystem::remove(part, ignored);
-        throw Error(path.string() + ": could not be written completely (disk full?)");
-    }
+    file.commit();
 }
 
 PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene) {
@@ -250,8 +225,7 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
     if (map.has_visible_lamps() &&
         map.visible_lamps.size() != map.coverage.size() * visibility_words(uint(scene.lights.size())))
         refuse(path, "lattices and lamp visibility do not agree");
-    if (map.irradiance.size() != map.coverage.size() * scene.lights.size() || !(map.irradiance_scale > 0) ||
-        !std::isfinite(map.irradiance_scale))
+    if (map.irradiance.size() != map.coverage.size() * scene.lights.size())
         refuse(path, "lattices and irradiance do not agree");
     return map;
 }

@@ -4,7 +4,7 @@
 
 namespace lw {
 
-void submit_and_wait(const Device& device, const std::function<void(vk::CommandBuffer)>& record) {
+void submit_and_wait(const Device& device, const std::function<void(vk::CommandBuffer)>& record) try {
     const vk::Device d = device.handle();
     auto buffers = d.allocateCommandBuffersUnique({device.command_pool(), vk::CommandBufferLevel::ePrimary, 1});
     const vk::CommandBuffer commands = *buffers[0];
@@ -16,6 +16,12 @@ void submit_and_wait(const Device& device, const std::function<void(vk::CommandB
     device.queue().submit2(vk::SubmitInfo2({}, {}, buffer_info, {}), *fence);
     if (d.waitForFences(*fence, true, UINT64_MAX) != vk::Result::eSuccess)
         throw Error(device.name() + ": does not finish its work");
+} catch (const vk::DeviceLostError&) {
+    throw Error(device.name() +
+                ": the device was lost (a driver's time limit, or it was unplugged); try fewer --samples "
+                "or a smaller picture");
+} catch (const vk::SystemError& failure) {
+    throw Error(device.name() + ": cannot do its work: " + failure.what());
 }
 
 void stage_barrier(vk::CommandBuffer commands, vk::PipelineStageFlags2 from, vk::PipelineStageFlags2 to) {

@@ -13,7 +13,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "image/replaced_file.h"
+#include "base/replaced_file.h"
 
 namespace lw {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "image/replaced_file.h"
+#include "base/replaced_file.h"
 
 // Static: libtinygltf.so exports the same symbols.
 #define STB_IMAGE_WRITE_STATIC

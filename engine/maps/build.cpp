@@ -68,7 +68,8 @@ void fit_grid(SurfaceGrid& grid, const std::vector<Record>& photons, const uint*
     const auto count = double(last - first);
     const double cells = std::max(1.0, count / references_per_cell);
     double cell = std::sqrt(double(extent.x) * double(extent.y) / cells);
-    cell = std::max({cell, double(extent.x) / cells, double(extent.y) / cells});
+    // Few or coincident photons: no cells so small that a search over the radius visits thousands.
+    cell = std::max({cell, double(extent.x) / cells, double(extent.y) / cells, double(grid.radius) / 256});
     grid.cell_size = float(cell);
     grid.columns = uint(std::max(1.0, std::ceil(double(extent.x) / double(grid.cell_size))));
     grid.rows = uint(std::max(1.0, std::ceil(double(extent.y) / double(grid.cell_size))));
@@ -216,11 +217,12 @@ std::vector<uint> append_grids(const Scene& scene, const Partition& partition, c
         map.grids[first_grid + m] = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
         fit_grid(map.grids[first_grid + m], records, first(m), last(m));
     });
-    uint cells = map.cell_starts.empty() ? 0 : uint(map.cell_starts.size() - 1);
+    uint64_t cells = map.cell_starts.empty() ? 0 : map.cell_starts.size() - 1;
     for (size_t g = first_grid; g < map.grids.size(); ++g) {
-        map.grids[g].first_cell = cells;
-        cells += map.grids[g].columns * map.grids[g].rows;
+        map.grids[g].first_cell = uint(cells);
+        cells += uint64_t(map.grids[g].columns) * map.grids[g].rows;
     }
+    if (cells >= no_map) throw Error("photon map: more than 2^32 cells; use fewer photons");
     const size_t end = first_place + references.photons.size();
     map.cell_starts.resize(cells + 1);
     map.cell_starts.back() = uint(end);

@@ -7,6 +7,9 @@
 
 namespace lw {
 
+/// Area of all triangles, one side, m2.
+double area_of(const Scene& scene);
+
 /// The radius within which 250 photons lie at the mean density of the scene: sqrt(250 A / (pi N)).
 /// Bounded by half the diagonal of the scene.
 float automatic_radius(const Scene& scene, uint64_t photons);

@@ -101,6 +101,13 @@ std::vector<float> areas_of_samples(const Scene& scene, const Patches& patches, 
     return areas;
 }
 
+/// True when another triangle lies in the same place and is the one that rays meet there: it holds the photons, and
+/// only its samples count. Without this, duplicate or overlapping triangles would be dark: more area, not more photons.
+bool is_overlaid(const RayCaster& caster, vec3 point, vec3 normal, uint triangle) {
+    const std::optional<Hit> hit = caster.nearest(caster.offset(point, normal), -normal, 2 * caster.epsilon());
+    return hit && hit->triangle != triangle;
+}
+
 uint pack_coverage(const Levels& levels) {
     uint bits = 0;
     for (uint i = 0; i < coverage_levels; ++i)
@@ -142,6 +149,7 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
             for (uint i = 0; i < counts[t]; ++i) {
                 const vec2 place = sample_triangle(sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
                 const vec3 position = (1 - place.x - place.y) * p0 + place.x * p1 + place.y * p2;
+                if (is_overlaid(caster, position, normalize(product), uint(t))) continue;
                 for (uint side = 0; side < 2; ++side) {
                     const vec3 n = product / (side ? -length(product) : length(product));
                     Rng rng(1, 2 * t + side, i);

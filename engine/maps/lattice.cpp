@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "trace/ray_caster.h"
 
@@ -79,13 +80,15 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
 
 std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchShape>& shapes, float spacing,
                                     PhotonMap& map) {
-    uint count = 0;
+    uint64_t count = 0;
     for (size_t m = 0; m < map.grids.size(); ++m) {
         SurfaceLattice& lattice = map.grids[m].lattice;
         lattice = fit_lattice(shapes[m], map.grids[m], spacing);
-        lattice.first_node = count;
-        count += lattice.columns * lattice.rows;
+        lattice.first_node = uint(count);
+        count += uint64_t(lattice.columns) * lattice.rows;
     }
+    if (count * visibility_words(uint(scene.lights.size())) >= no_map)
+        throw Error("photon map: more than 2^32 lattice nodes; use a larger radius");
     std::vector<NodePoint> nodes(count);
     const SidesOfMaps sides(map);
     parallel_for(map.grids.size(), [&](size_t m) {

@@ -12,7 +12,8 @@
 namespace lw {
 namespace {
 
-constexpr float gap_in_patches = 0.01f;  // heights further apart than this are two sheets
+constexpr float gap_in_patches = 0.004f;        // heights further apart than this are two sheets
+constexpr float needle_in_patches = 1.0f / 64;  // narrower large triangles share a map too
 
 /// Face of the cube and 3 x 3 sub-bin that a direction points at; axis-aligned normals lie in bin centres.
 uint normal_bin(vec3 n) {
@@ -27,6 +28,7 @@ uint normal_bin(vec3 n) {
 
 struct PatchKey {
     uint object, bin;
+    int level;  // 0, or log2 of the size of the cells of needles
     glm::ivec3 cell;
     bool operator==(const PatchKey&) const = default;
 };
@@ -35,7 +37,7 @@ struct PatchKeyHash {
     size_t operator()(const PatchKey& k) const {
         uint64_t h = mix64((uint64_t(k.object) << 32) | k.bin);
         h = mix64(h ^ uint64_t(uint(k.cell.x)) ^ (uint64_t(uint(k.cell.y)) << 32));
-        return size_t(mix64(h ^ uint(k.cell.z)));
+        return size_t(mix64(h ^ uint(k.cell.z) ^ (uint64_t(uint(k.level)) << 32)));
     }
 };
 
@@ -96,12 +98,15 @@ Patches group_triangles(const Scene& scene, float patch_size) {
         const vec3 normal = twice_area > 0 ? product / twice_area : vec3(0, 1, 0);
         for (uint side = 0; side < 2; ++side) {
             uint& patch = patches.of_side[2 * t + side];
-            if (std::max({size.x, size.y, size.z}) > patch_size) {
+            const float longest = std::max({size.x, size.y, size.z});
+            const bool needle = longest > patch_size && twice_area < needle_in_patches * patch_size * longest;
+            if (longest > patch_size && !needle) {
                 patch = patches.count++;
                 continue;
             }
-            const vec3 cell = floor(0.5f * (low + high) / patch_size + 0.37f);
-            const PatchKey key{scene.triangle_objects[t], normal_bin(side ? -normal : normal), glm::ivec3(cell)};
+            const int level = needle ? int(std::ceil(std::log2(longest / patch_size))) : 0;
+            const vec3 cell = floor(0.5f * (low + high) / std::ldexp(patch_size, level) + 0.37f);
+            const PatchKey key{scene.triangle_objects[t], normal_bin(side ? -normal : normal), level, glm::ivec3(cell)};
             const auto [place, fresh] = shared.try_emplace(key, patches.count);
             if (fresh) ++patches.count;
             patch = place->second;

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "base/parallel.h"
-#include "image/replaced_file.h"
+#include "base/replaced_file.h"
 #include "measure/mirrored_light.h"
 #include "scene/camera.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -14,10 +15,11 @@
 namespace lw {
 namespace {
 
-constexpr uint64_t chunk_size = 4096;   // paths per task
-constexpr uint64_t pilot_paths = 8192;  // per lamp, to learn what it stores
-constexpr uint64_t aim_paths = 131072;  // per sun, to learn where its light enters
-constexpr int longest_path = 10000;
+constexpr uint64_t chunk_size = 4096;           // paths per task
+constexpr uint64_t pilot_paths = 8192;          // per lamp, to learn what it stores
+constexpr uint64_t aim_paths = 131072;          // per sun, to learn where its light enters
+constexpr size_t most_pilot_photons = 100'000;  // of a task: enough to learn from, in a room that absorbs little
+constexpr int longest_path = 1000;              // ends paths between surfaces that absorb nothing; 0.99^1000 is 4e-5
 constexpr int depth_of_roulette = 64;
 
 double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
@@ -41,9 +43,12 @@ class Shooter {
     /// The five emission numbers of a path, before aiming: Owen-scrambled Sobol.
     std::array<float, 5> numbers(uint light, uint64_t index) const;
 
-    /// Traces the paths of a chunk; each photon carries 1 / emitted of the lamp's flux.
-    void trace(Chunk& chunk, double emitted) const {
-        for (uint64_t index = chunk.first; index < chunk.last; ++index) trace_path(chunk, index, float(1.0 / emitted));
+    /// Traces the paths of a chunk; each photon carries 1 / emitted of the lamp's flux. Ends early with `most` photons.
+    void trace(Chunk& chunk, double emitted, size_t most = std::numeric_limits<size_t>::max()) const {
+        uint64_t index = chunk.first;
+        for (; index < chunk.last && chunk.photons.size() < most; ++index)
+            trace_path(chunk, index, float(1.0 / emitted));
+        chunk.last = index;
     }
 
   private:
@@ -149,15 +154,16 @@ void aim_suns(Shooter& shooter, const Scene& scene) {
 std::vector<uint64_t> plan_emission(const Shooter& shooter, const Scene& scene, uint64_t wanted) {
     const size_t count = scene.lights.size();
     std::vector<Chunk> pilots = split_paths(std::vector<uint64_t>(count, pilot_paths), std::vector<uint64_t>(count, 0));
-    parallel_for(pilots.size(), [&](size_t i) { shooter.trace(pilots[i], double(pilot_paths)); });
-    std::vector<double> yield(count, 0), useful(count, 0);
+    parallel_for(pilots.size(), [&](size_t i) { shooter.trace(pilots[i], double(pilot_paths), most_pilot_photons); });
+    std::vector<double> yield(count, 0), useful(count, 0), traced(count, 0);
+    for (const Chunk& pilot : pilots) traced[pilot.light] += double(pilot.last - pilot.first);
     uint64_t shown = 0;
     for (const Chunk& pilot : pilots) {
-        yield[pilot.light] += double(pilot.photons.size()) / double(pilot_paths);
+        yield[pilot.light] += double(pilot.photons.size()) / traced[pilot.light];
         shown += pilot.shown;
         for (const Photon& p : pilot.photons)
-            useful[pilot.light] +=
-                luminance(p.flux * scene.lights[pilot.light].intensity) * (p.path() == path_direct ? 0.05 : 1);
+            useful[pilot.light] += luminance(p.flux * scene.lights[pilot.light].intensity) *
+                                   (p.path() == path_direct ? 0.05 : 1) * (double(pilot_paths) / traced[pilot.light]);
     }
     if (shown == 0)
         throw Error(scene.path.filename().string() +

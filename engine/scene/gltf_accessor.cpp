@@ -7,7 +7,7 @@ namespace lw {
 namespace {
 
 constexpr uint64_t most_rows = uint64_t(1) << 31;
-constexpr uint64_t most_zero_rows = uint64_t(1) << 26;  // an accessor without a view costs the file nothing
+constexpr uint64_t most_zero_rows = uint64_t(1) << 22;  // an accessor without a view costs the file nothing
 
 /// Rows of raw components somewhere in a buffer.
 struct RawRows {

@@ -13,7 +13,7 @@ constexpr float eye_height = 1.65f;  // m above the floor
 /// Columns right, up, back: orthonormal and right-handed whatever the node's scale, shear or mirroring.
 mat3 rotation_of(const glm::dmat4& world) {
     const auto unit_or = [](glm::dvec3 v, glm::dvec3 otherwise) {
-        return glm::length(v) > 1e-12 ? glm::normalize(v) : otherwise;
+        return glm::length(v) > 1e-12 && std::isfinite(glm::length(v)) ? glm::normalize(v) : otherwise;
     };
     const glm::dvec3 back = unit_or(world[2], glm::dvec3(0, 0, 1));
     const glm::dvec3 spare = std::abs(back.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
@@ -24,8 +24,8 @@ mat3 rotation_of(const glm::dmat4& world) {
 
 void set_perspective(const tinygltf::PerspectiveCamera& source, Camera& camera) {
     if (source.yfov > 0 && source.yfov < 3.1) camera.yfov = float(source.yfov);
-    if (source.aspectRatio > 0 && std::isfinite(source.aspectRatio)) camera.aspect = float(source.aspectRatio);
-    if (source.znear > 0) camera.near = float(std::min(source.znear, 10.0));
+    if (source.aspectRatio > 0) camera.aspect = float(std::clamp(source.aspectRatio, 1e-3, 1e3));
+    if (source.znear > 0) camera.near = float(std::clamp(source.znear, 1e-6, 10.0));
 }
 
 /// A perspective that shows at the middle of the scene what the parallel view shows everywhere.
@@ -34,7 +34,7 @@ void set_orthographic(const tinygltf::OrthographicCamera& source, const Scene& s
     const vec3 middle = (scene.bounds[0] + scene.bounds[1]) * 0.5f;
     const double distance = std::max(double(dot(camera.position - middle, camera.rotation[2])), height);
     if (height > 0) camera.yfov = float(std::clamp(2 * std::atan(height / distance), 0.01, 2.6));
-    if (height > 0 && width > 0) camera.aspect = float(width / height);
+    if (height > 0 && width > 0) camera.aspect = float(std::clamp(width / height, 1e-3, 1e3));
 }
 
 /// Facing a scene without depth, such as a floor or a wall, whose side `flat` is the thin one.
@@ -95,6 +95,8 @@ void load_cameras(GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& s
         const tinygltf::Camera& source = file.model.cameras[size_t(file.model.nodes[at.node].camera)];
         Camera camera;
         camera.position = vec3(glm::dvec3(at.world[3]) - scene.origin);
+        if (!(length(camera.position) < 2 * float(most_metres)))
+            file.fail(label("node", at.node, file.model.nodes[at.node].name) + ": the camera is too far away");
         camera.rotation = rotation_of(at.world);
         if (source.type == "orthographic")
             set_orthographic(source.orthographic, scene, camera);

@@ -53,14 +53,26 @@ std::string_view json_text(const GltfFile& file, const std::vector<unsigned char
     return {text + glb_header_bytes, size_t(json_bytes)};
 }
 
+/// Deepest nesting of brackets outside strings. Counted on the text: the parser's own callback takes quadratic time.
+int depth_of(std::string_view text) {
+    int depth = 0, deepest = 0;
+    bool quoted = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quoted && c == '\\') ++i;
+        if (c == '"') quoted = !quoted;
+        if (quoted) continue;
+        if (c == '{' || c == '[') deepest = std::max(deepest, ++depth);
+        if (c == '}' || c == ']') --depth;
+    }
+    return deepest;
+}
+
 /// Parses the text, refusing nesting so deep that tinygltf's recursion would exhaust the stack.
 Json parse_json(const GltfFile& file, std::string_view text) {
-    const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
-        if (depth > 200) file.fail("JSON is nested too deeply");
-        return true;
-    };
+    if (depth_of(text) > 200) file.fail("JSON is nested too deeply");
     try {
-        return Json::parse(text, shallow);
+        return Json::parse(text);
     } catch (const Json::exception& e) {
         file.fail(std::string("not valid JSON: ") + e.what());
     }

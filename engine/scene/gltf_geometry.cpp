@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "base/memory.h"
 #include "scene/gltf_primitive.h"
 
 namespace lw {
@@ -19,9 +20,20 @@ struct PlacedMesh {
     glm::dmat4 world;
 };
 
+/// Refuses what would not fit, before it is asked for: a short file can name one long accessor many times.
+void check_memory(const GltfFile& file, uint64_t vertices, uint64_t triangles) {
+    constexpr uint64_t bytes_per_vertex = 72, bytes_per_triangle = 16;  // of Scene, all optional arrays present
+    constexpr uint64_t always_there = uint64_t(256) << 20;              // not worth asking
+    const uint64_t bytes = vertices * bytes_per_vertex + triangles * bytes_per_triangle;
+    if (bytes > always_there && bytes > available_memory())
+        file.fail("its " + std::to_string(triangles) + " triangles take " + bytes_text(bytes) + ", there are " +
+                  bytes_text(available_memory()));
+}
+
 std::vector<PlacedMesh> place_meshes(GltfFile& file, const std::vector<PlacedNode>& nodes, const Scene& scene,
                                      std::map<int, LocalMesh>& meshes) {
     std::vector<PlacedMesh> placed;
+    uint64_t vertices = 0, triangles = 0;
     for (const PlacedNode& at : nodes) {
         const tinygltf::Node& node = file.model.nodes[at.node];
         if (node.mesh < 0) continue;
@@ -36,6 +48,9 @@ std::vector<PlacedMesh> place_meshes(GltfFile& file, const std::vector<PlacedNod
                 if (!source.primitives[i].targets.empty())
                     file.warn("morph targets are ignored, meshes keep their base shape");
                 it->second.push_back(decode_primitive(file, size_t(node.mesh), i, scene));
+                vertices += it->second.back().positions.size();
+                triangles += it->second.back().triangles.size();
+                check_memory(file, vertices, triangles);
             }
         for (const glm::dmat4& world : instances_of(file, at)) placed.push_back({at.node, &it->second, world});
     }
@@ -57,21 +72,21 @@ vec3 unit_or(glm::dvec3 v, vec3 otherwise) {
 }
 
 void find_origin(const GltfFile& file, const std::vector<PlacedMesh>& placed, Scene& scene) {
-    glm::dvec3 low(std::numeric_limits<double>::max()), high = -low;
-    uint64_t vertices = 0, triangles = 0;
+    uint64_t vertices = 0, triangles = 0;  // counted before anything is done with them
     for (const PlacedMesh& mesh : placed)
-        for (const LocalPrimitive& p : *mesh.mesh) {
-            vertices += p.positions.size();
-            triangles += p.triangles.size();
+        for (const LocalPrimitive& p : *mesh.mesh) vertices += p.positions.size(), triangles += p.triangles.size();
+    if (triangles == 0) file.fail("the scene has no triangles");
+    if (std::max(vertices, triangles) >= std::numeric_limits<uint>::max())
+        file.fail("the scene has more than 2^32 vertices or triangles");
+    check_memory(file, vertices, triangles);
+    glm::dvec3 low(std::numeric_limits<double>::max()), high = -low;
+    for (const PlacedMesh& mesh : placed)
+        for (const LocalPrimitive& p : *mesh.mesh)
             for (vec3 position : p.positions) {
                 const glm::dvec3 world = transform_point(mesh.world, position);
                 low = glm::min(low, world);
                 high = glm::max(high, world);
             }
-        }
-    if (triangles == 0) file.fail("the scene has no triangles");
-    if (std::max(vertices, triangles) >= std::numeric_limits<uint>::max())
-        file.fail("the scene has more than 2^32 vertices or triangles");
     const glm::dvec3 size = high - low;
     if (!(size.x < most_metres && size.y < most_metres && size.z < most_metres))
         file.fail("the scene is larger than 1e9 m");

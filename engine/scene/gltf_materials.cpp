@@ -93,6 +93,16 @@ void read_textures(TextureLoader& loader, const tinygltf::Material& source, cons
             loader.slot(texture_info(*e, "transmissionTexture"), false, where + ": transmissionTexture");
 }
 
+/// Factors of the file are doubles: one beyond the floats would make light that is no number.
+bool is_finite(const Material& m) {
+    const vec3 c = m.specular_color;
+    bool finite = std::isfinite(c.x + c.y + c.z) && std::isfinite(m.normal_scale);
+    for (const TextureSlot& slot : {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture,
+                                    m.emissive_texture, m.transmission_texture})
+        finite = finite && std::isfinite(dot(slot.row0, slot.row0) + dot(slot.row1, slot.row1));
+    return finite;
+}
+
 }  // namespace
 
 Material default_material() {
@@ -126,6 +136,7 @@ void load_materials(GltfFile& file, Scene& scene) {
         if (!std::isfinite(m.ior) || (m.ior != 0 && m.ior < 1)) file.fail(where + ": ior must be 0 or at least 1");
         if (!std::isfinite(m.emissive.x + m.emissive.y + m.emissive.z))
             file.fail(where + ": the emission is not finite");
+        if (!is_finite(m)) file.fail(where + ": a factor is not finite");
         scene.materials.push_back(m);
         scene.material_names.push_back(source.name.empty() ? "material_" + std::to_string(i) : source.name);
     }

@@ -135,6 +135,7 @@ void read_optional(const AttributeReader& reader, const std::vector<uint32_t>& k
     if (needs.uv0) p.uv0 = reader.gather<2>("TEXCOORD_0", 2, kept, vertex_count);
     if (needs.uv1) p.uv1 = reader.gather<2>("TEXCOORD_1", 2, kept, vertex_count);
     p.colors = reader.gather<4>("COLOR_0", 3, kept, vertex_count);
+    for (vec4& c : p.colors) c = clamp(c, vec4(0), vec4(1));  // they are factors: more would make light
     const Material m = p.material < 0 ? default_material() : scene.materials[size_t(p.material)];
     if (m.normal_texture.texture < 0) return;
     p.tangents = reader.gather<4>("TANGENT", 4, kept, vertex_count);

@@ -87,7 +87,8 @@ class Process {
         waitpid(pid_, nullptr, 0);
     }
 
-    void interrupt() const { kill(pid_, SIGINT); }
+    void interrupt() const { send(SIGINT); }
+    void send(int signal) const { kill(pid_, signal); }
     std::string err_so_far() const { return read_text(printed_ / "err"); }
 
     Outcome wait() {

@@ -182,4 +182,167 @@ TEST(GltfErrors, TheApartmentCutAtManyLengths) {
         EXPECT_NE(error_of([&] { load_gltf(GltfText::write(whole.substr(0, length), "cut.glb")); }), "") << length;
 }
 
+TEST(GltfErrors, EveryIndexOutOfRangeIsNamed) {
+    const auto refused = [](const char* named, const auto& bend) {
+        GltfText g = square();
+        bend(g);
+        EXPECT_NE(message(g).find(named), std::string::npos) << named << ": " << message(g);
+    };
+    refused("there is no material 3", [](GltfText& g) { g.primitive()["material"] = 3; });
+    refused("there is no mesh 2", [](GltfText& g) { g.node()["mesh"] = 2; });
+    refused("there is no camera 1", [](GltfText& g) { g.node()["camera"] = 1; });
+    refused("there is no scene 5", [](GltfText& g) { g.doc["scene"] = 5; });
+    refused("there is no accessor 77", [](GltfText& g) { g.primitive()["attributes"]["POSITION"] = 77; });
+    refused("indices accessor out of bounds", [](GltfText& g) { g.primitive()["indices"] = 77; });
+    refused("buffer view 9", [](GltfText& g) { g.doc["accessors"][0]["bufferView"] = 9; });
+    refused("buffer", [](GltfText& g) { g.doc["bufferViews"][0]["buffer"] = 4; });
+    refused("there is no light 8",
+            [](GltfText& g) { g.doc["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 8; });
+    refused("there is no light -1",
+            [](GltfText& g) { g.doc["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = -1; });
+    refused("there is no texture 6", [](GltfText& g) {
+        g.doc["materials"] = {{{"emissiveTexture", {{"index", 6}}}}};
+        g.primitive()["material"] = 0;
+    });
+}
+
+TEST(GltfErrors, LongCyclesAndTwoParents) {
+    GltfText cycle = square();
+    cycle.node()["children"] = {2};
+    cycle.doc["nodes"].push_back({{"children", {3}}});
+    cycle.doc["nodes"].push_back({{"children", {0}}});
+    EXPECT_NE(message(cycle).find("is its own ancestor or has two parents"), std::string::npos) << message(cycle);
+    GltfText shared = square();
+    shared.doc["nodes"].push_back({{"name", "both"}});
+    shared.doc["nodes"][0]["children"] = {2};
+    shared.doc["nodes"][1]["children"] = {2};
+    EXPECT_NE(message(shared).find("node 2 \"both\": is its own ancestor or has two parents"), std::string::npos);
+    GltfText rootless = square();
+    rootless.doc.erase("scenes"), rootless.doc.erase("scene");
+    rootless.node()["children"] = {1};
+    rootless.doc["nodes"][1]["children"] = {0};
+    EXPECT_EQ(message(rootless), "room.gltf: the scene has no triangles");
+}
+
+TEST(GltfErrors, AMillionNodesDeepIsNoDeepRecursion) {
+    GltfText g = square();
+    Json nodes = Json::array({g.doc["nodes"][0], g.doc["nodes"][1]});
+    for (int i = 2; i < 100'000; ++i) nodes.push_back({{"children", {i + 1}}});
+    nodes.push_back(Json::object());
+    nodes[0]["children"] = {2};
+    g.doc["nodes"] = nodes;
+    EXPECT_EQ(message(g), "");
+}
+
+TEST(GltfErrors, MissingFilesAreNamed) {
+    GltfText g = square();
+    Json doc = g.doc;
+    doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "lost.bin"}}};
+    const std::string lost = error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); });
+    EXPECT_NE(lost.find("lost.bin"), std::string::npos) << lost;
+    doc["buffers"] = {{{"byteLength", g.bytes.size()}}};
+    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
+    doc.erase("buffers");
+    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
+    GltfText::write(std::string(g.bytes.begin(), g.bytes.end() - 1), "short.bin");
+    doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "short.bin"}}};
+    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
+    GltfText image = square();
+    image.doc["images"] = {{{"uri", "lost.png"}}};
+    image.doc["textures"] = {{{"source", 0}}};
+    image.doc["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    image.primitive()["material"] = 0;
+    const Scene s = image.load();
+    ASSERT_EQ(s.warnings.size(), 1u);
+    EXPECT_NE(s.warnings[0].find("image 0"), std::string::npos) << s.warnings[0];
+}
+
+TEST(GltfErrors, DataUrisCutAnywhereAreRefused) {
+    const GltfText g = square();
+    const std::string whole = "data:application/octet-stream;base64," + base64(g.bytes);
+    for (size_t length = 1; length + 4 < whole.size(); ++length) {
+        Json doc = g.doc;
+        doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", whole.substr(0, length)}}};
+        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "") << length;
+    }
+}
+
+TEST(GltfErrors, ABinaryFileWithAWrongHeader) {
+    const std::string whole = square_glb();
+    const auto refused = [&](size_t at, const std::string& bytes, const char* named) {
+        std::string changed = whole;
+        changed.replace(at, bytes.size(), bytes);
+        const std::string told = error_of([&] { load_gltf(GltfText::write(changed, "room.glb")); });
+        EXPECT_NE(told.find(named), std::string::npos) << at << ": " << told;
+    };
+    refused(0, "glTX", "not valid JSON");
+    refused(4, std::string("\1\0\0\0", 4), "GLB version 1");
+    refused(8, "\xff\xff\xff\xff", "truncated");
+    refused(12, "\xff\xff\xff\xff", "longer than the file");
+    refused(12, std::string(4, '\0'), "");
+    refused(16, "NOSJ", "");
+}
+
+TEST(GltfErrors, ClaimedElementsCostNothing) {
+    GltfText g = square();
+    g.doc["accessors"][0].erase("bufferView");
+    for (const uint64_t count : {uint64_t(1'000'000'000), uint64_t(1) << 23}) {
+        g.doc["accessors"][0]["count"] = count;
+        EXPECT_NE(message(g).find("has too many elements"), std::string::npos) << message(g);
+    }
+}
+
+/// One accessor of a million zeros, drawn by many nodes: 2e10 vertices from a file of a megabyte.
+TEST(GltfErrors, AShortFileCannotAskForAllMemory) {
+    GltfText g = square();
+    g.doc["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 1 << 20}});
+    g.doc["accessors"][0] = g.doc["accessors"].back();
+    g.primitive()["attributes"].erase("NORMAL");
+    g.primitive().erase("indices");
+    Json node = g.doc["nodes"][0];
+    for (int i = 0; i < 20'000; ++i) {
+        g.doc["nodes"].push_back(node);
+        g.doc["scenes"][0]["nodes"].push_back(2 + i);
+    }
+    EXPECT_NE(message(g).find("than 2^32"), std::string::npos) << message(g);
+    g.doc["scenes"][0]["nodes"] = Json::array({1});
+    for (int i = 0; i < 3000; ++i) g.doc["scenes"][0]["nodes"].push_back(2 + i);
+    EXPECT_NE(message(g).find("triangles take"), std::string::npos) << message(g);
+}
+
+TEST(GltfErrors, FactorsBeyondTheFloatsAreRefusedOrBounded) {
+    GltfText g = square();
+    g.primitive()["material"] = 0;
+    const auto material = [&](const Json& m) {
+        g.doc["materials"] = Json::array({m});
+        return message(g);
+    };
+    EXPECT_NE(material({{"emissiveFactor", {1e300, 0, 0}}}).find("the emission is not finite"), std::string::npos);
+    EXPECT_NE(material({{"normalTexture", {{"index", 0}, {"scale", 1e300}}}}), "");
+    const Json specular = {{"KHR_materials_specular", {{"specularColorFactor", {1e300, 1, 1}}}}};
+    EXPECT_NE(material({{"extensions", specular}}).find("a factor is not finite"), std::string::npos);
+    EXPECT_EQ(material({{"pbrMetallicRoughness", {{"roughnessFactor", 1e300}}}}), "");
+    GltfText bright = square();
+    bright.doc["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 1e300;
+    EXPECT_NE(message(bright).find("the intensity is not finite"), std::string::npos);
+    GltfText camera = square();
+    camera.doc["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1e300}, {"aspectRatio", 1e-300}}}}};
+    camera.doc["cameras"][0]["perspective"]["znear"] = 1e-300;
+    camera.node()["camera"] = 0;
+    const Scene s = camera.load();
+    EXPECT_GT(s.cameras[0].near, 0);
+    EXPECT_GE(s.cameras[0].aspect, 1e-3f);
+    camera.doc["nodes"].push_back({{"camera", 0}, {"translation", {1e20, 0, 0}}});
+    camera.doc["scenes"][0]["nodes"].push_back(2);
+    EXPECT_NE(message(camera).find("the camera is too far away"), std::string::npos) << message(camera);
+}
+
+TEST(GltfErrors, VertexColoursOutsideTheirRangeMakeNoLight) {
+    GltfText g = square();
+    g.floats("COLOR_0", {-1, 2, 0.5f, 1, 1e30f, -1e30f, 0, 1, 0, 0, 0, 0, 1, 1, 1, 7}, "VEC4");
+    const Scene s = g.load();
+    for (const vec4& c : s.colors)
+        for (int i = 0; i < 4; ++i) EXPECT_TRUE(c[i] >= 0 && c[i] <= 1) << c[i];
+}
+
 }  // namespace lw::test

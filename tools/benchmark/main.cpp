@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/progress.h"
+#include "base/interrupt.h"
 #include "sections.h"
 
 namespace {

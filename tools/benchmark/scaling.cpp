@@ -3,7 +3,6 @@
 
 #include "accuracy.h"
 #include "base/error.h"
-#include "base/progress.h"
 #include "rooms.h"
 #include "sections.h"
 
@@ -100,7 +99,6 @@ Row measure_point(const Bench& bench, const Point& point) {
         add_frame(row, frame);
         add_error(row, error_at_base_size(bench, baked, frame));
     } catch (const Error& refusal) {
-        check_interrupt();
         row["refused"] = refusal.what();
     }
     return row;

@@ -1,0 +1,15 @@
+// How much memory there is, asked before much of it is taken.
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace lw {
+
+/// Bytes that this process may still take without swapping: what the system has available, or what its control group
+/// leaves when that is less. UINT64_MAX when the system does not tell.
+uint64_t available_memory();
+
+/// "12 MB", "3.4 GB": powers of ten.
+std::string bytes_text(uint64_t bytes);
+
+}  // namespace lw

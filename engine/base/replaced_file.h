@@ -1,0 +1,34 @@
+// A file that appears whole or not at all: written beside its place under a name of this process, then renamed.
+#pragma once
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+
+namespace lw {
+
+/// An open stream to a file beside `path`; commit() moves it into place, otherwise the destructor removes it, or
+/// Ctrl-C does (base/interrupt.h). Two writers of one path do not meet: the last to commit wins.
+/// Throws Error naming the file when it cannot be created, written to the end, or renamed.
+class ReplacedFile {
+  public:
+    explicit ReplacedFile(const std::filesystem::path& path);
+    ReplacedFile(const ReplacedFile&) = delete;
+    ReplacedFile& operator=(const ReplacedFile&) = delete;
+    ~ReplacedFile();
+
+    std::ofstream& stream() { return stream_; }
+
+    void commit();
+
+  private:
+    std::filesystem::path path_;
+    std::filesystem::path partial_;
+    std::ofstream stream_;
+    bool committed_ = false;
+};
+
+/// Throws what ReplacedFile would throw for `path`, before long work whose result shall lie there, and when `path` is
+/// one of the `inputs`, which the work would destroy. Leaves no trace.
+void check_can_create(const std::filesystem::path& path, std::initializer_list<std::filesystem::path> inputs = {});
+
+}  // namespace lw

@@ -1,0 +1,76 @@
+#include "maps/bake_memory.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "maps/build.h"
+
+namespace lw {
+namespace {
+
+constexpr double most_references_per_photon = 2.5;  // what small patches are tightened to
+constexpr double most_indices = 4.29e9;             // 32 bits
+
+/// What a bake counts; areas and distances in metres.
+struct Counts {
+    double photons, samples, nodes, lamps, triangles;
+};
+
+Counts counts_of(const Scene& scene, const BakeSettings& settings) {
+    const double r = double(settings.radius > 0 ? std::min(settings.radius, scene.size())
+                                                : automatic_radius(scene, settings.photons));
+    const double sides = 2 * area_of(scene) / std::max(r * r, 1e-30);
+    return {double(settings.photons), sides / 0.03, sides / 0.25, double(scene.lights.size()),
+            double(scene.triangles.size())};
+}
+
+double bytes_of(const Counts& c) {
+    constexpr double program = 6e7, per_triangle = 450;
+    constexpr double tracing = 135;  // a photon in the vectors of its task, and where they are joined
+    constexpr double building = 115, per_sample = 120, per_node = 64, per_node_and_lamp = 20;
+    const double maps =
+        building * c.photons + per_sample * c.samples + (per_node + per_node_and_lamp * c.lamps) * c.nodes;
+    return program + per_triangle * c.triangles + std::max(tracing * c.photons, maps);
+}
+
+bool can_be_counted(const Counts& c) {
+    const double words = std::ceil(c.lamps / lamps_per_word);
+    return c.photons * most_references_per_photon < most_indices &&
+           c.samples * most_references_per_photon < most_indices && c.nodes * std::max(words, 1.0) < most_indices;
+}
+
+/// The most photons that `fits` allows, in steps of one significant digit; 0 when none.
+template <class Fits>
+uint64_t most_photons(uint64_t wanted, const Fits& fits) {
+    for (uint64_t digit = 1'000'000'000; digit > 0; digit /= 10)
+        for (uint64_t n = 9; n > 0; --n)
+            if (n * digit < wanted && fits(n * digit)) return n * digit;
+    return 0;
+}
+
+}  // namespace
+
+uint64_t predict_bake_bytes(const Scene& scene, const BakeSettings& settings) {
+    return uint64_t(bytes_of(counts_of(scene, settings)));
+}
+
+void check_bake_fits(const Scene& scene, const BakeSettings& settings, uint64_t budget) {
+    const auto fits = [&](uint64_t photons) {
+        BakeSettings fewer = settings;
+        fewer.photons = photons;
+        const Counts counts = counts_of(scene, fewer);
+        return can_be_counted(counts) && bytes_of(counts) <= double(budget);
+    };
+    if (fits(settings.photons)) return;
+    const bool countable = can_be_counted(counts_of(scene, settings));
+    const uint64_t most = most_photons(settings.photons, fits);
+    throw Error(scene.path.filename().string() + ": " + std::to_string(settings.photons) + " photons " +
+                (countable ? "take about " + bytes_text(predict_bake_bytes(scene, settings)) + " of memory, " +
+                                 bytes_text(budget) + " may be used (--memory)"
+                           : std::string("need more than 2^32 references or lattice nodes")) +
+                (most ? "; " + std::to_string(most) + " would fit" : "; a larger --radius would need less"));
+}
+
+}  // namespace lw

@@ -1,0 +1,198 @@
+// The programs where something goes wrong around them: killed at any moment, a full disk, two writers of one file,
+// outputs that are inputs, numbers that are none, too little memory.
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <thread>
+
+#include "programs/command.h"
+
+namespace lw {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::string scene_path(const std::string& name) { return LUMENWALK_SOURCE_DIR "/data/" + name; }
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+void expect_refusal(const Outcome& outcome, const std::string& named) {
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, named)) << outcome.err;
+}
+
+/// While it lives, files of this process and those it starts end at `bytes`, as on a full disk.
+class FullDisk {
+  public:
+    explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit small{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &small);
+    }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+  private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
+
+TEST(FailingMachines, ABakeEndedAtAnyMomentLeavesTheOldMapAndNothingElse) {
+    const TempFolder folder;
+    write_text(folder / "old.pmap", "the map of yesterday");
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        for (const int ms : {1, 10, 30, 60, 100, 150, 200, 300, 400}) {
+            Process process("bake", {scene_path("cube.gltf"), "-o", folder / "old.pmap", "--photons", "20000000"});
+            std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+            process.send(signal);
+            EXPECT_EQ(process.wait().exit_code, 128 + signal) << ms << " ms";
+            EXPECT_EQ(read_text(folder / "old.pmap"), "the map of yesterday");
+            EXPECT_EQ(folder.names(), Words{"old.pmap"}) << ms << " ms, signal " << signal;
+        }
+}
+
+TEST(FailingMachines, AnInterruptWhileAFileIsHalfWrittenRemovesIt) {
+    const TempFolder folder;
+    const Process baking("bake", {scene_path("cube.gltf"), "-o", folder / "map", "--photons", "1000000"});
+    const auto start = std::chrono::steady_clock::now();
+    const auto is_writing = [&] {
+        for (const std::string& name : folder.names())
+            if (contains(name, "partial") && std::filesystem::file_size(folder / name) > 0) return true;
+        return false;
+    };
+    Process reference("reference", {scene_path("cube.gltf"), "-o", folder / "picture.exr", "--size", "64x64"});
+    reference.send(SIGTERM);
+    EXPECT_EQ(reference.wait().exit_code, 143);
+    while (!is_writing() && !std::filesystem::exists(folder / "map") &&
+           std::chrono::steady_clock::now() - start < std::chrono::minutes(2))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    baking.send(SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    for (const std::string& name : folder.names()) EXPECT_EQ(name, "map");  // when it was faster than this test
+}
+
+TEST(FailingMachines, AKilledBakeDoesNotHinderTheNext) {
+    const TempFolder folder;
+    {
+        Process process("bake", {scene_path("cube.gltf"), "-o", folder / "map", "--photons", "20000000"});
+        std::this_thread::sleep_for(std::chrono::milliseconds(150));
+        process.send(SIGKILL);
+        EXPECT_EQ(process.wait().exit_code, 137);
+    }
+    write_text(folder / "map.partial-1-0", "left behind by a power cut");
+    EXPECT_EQ(run("bake", {scene_path("cube.gltf"), "-o", folder / "map", "--photons", "1000"}).exit_code, 0);
+}
+
+TEST(FailingMachines, AFullDiskIsToldInOneLineAndTheOldFileStays) {
+    const TempFolder folder;
+    const std::string scene = scene_path("cube.gltf");
+    ASSERT_EQ(run("bake", {scene, "-o", folder / "map", "--photons", "1000"}).exit_code, 0);
+    const std::string before = read_text(folder / "map");
+    {
+        const FullDisk disk(4096);
+        expect_refusal(run("bake", {scene, "-o", folder / "map", "--photons", "5000"}), "is the disk full?");
+        expect_refusal(run("reference", {scene, "-o", folder / "picture.exr", "--size", "64x64", "--samples", "1"}),
+                       "picture.exr: cannot be written");
+    }
+    EXPECT_EQ(read_text(folder / "map"), before);
+    EXPECT_EQ(folder.names(), Words{"map"});
+}
+
+TEST(FailingMachines, TwoBakesOfOneSceneAtOnceBothEndWell) {
+    const TempFolder folder;
+    const Words words{scene_path("cube.gltf"), "-o", folder / "map", "--photons", "50000"};
+    Process first("bake", words), second("bake", words);
+    EXPECT_EQ(first.wait().exit_code, 0);
+    EXPECT_EQ(second.wait().exit_code, 0);
+    EXPECT_EQ(folder.names(), Words{"map"});
+    ASSERT_EQ(run("bake", {words[0], "-o", folder / "alone", "--photons", "50000"}).exit_code, 0);
+    EXPECT_TRUE(read_text(folder / "map") == read_text(folder / "alone"));
+}
+
+TEST(FailingMachines, NoProgramWritesOverItsInput) {
+    const TempFolder folder;
+    const std::string scene = folder / "cube.exr", linked = folder / "link.exr";  // the loader looks at the content
+    std::filesystem::copy_file(scene_path("cube.gltf"), scene);
+    std::filesystem::create_symlink(scene, linked);
+    const std::string before = read_text(scene);
+    for (const std::string& output : {scene, linked}) {
+        expect_refusal(run("bake", {scene, "-o", output, "--photons", "100"}), "is an input");
+        expect_refusal(run("reference", {scene, "-o", output, "--size", "8x8", "--samples", "1"}), "is an input");
+    }
+    ASSERT_EQ(run("bake", {scene, "-o", folder / "map.exr", "--photons", "100"}).exit_code, 0);
+    const std::string map = read_text(folder / "map.exr");
+    expect_refusal(run("screenshot", {scene, folder / "map.exr", "-o", folder / "map.exr"}), "is an input");
+    expect_refusal(run("screenshot", {scene, folder / "map.exr", "-o", scene}), "is an input");
+    EXPECT_EQ(read_text(scene), before);
+    EXPECT_EQ(read_text(folder / "map.exr"), map);
+    const std::string picture = folder / "picture.png";
+    ASSERT_EQ(run("reference", {scene, "-o", folder / "a.exr", "--size", "8x8", "--samples", "1"}).exit_code, 0);
+    std::filesystem::rename(folder / "a.exr", picture);
+    expect_refusal(run("compare", {picture, picture, "--difference", picture}), "is an input");
+}
+
+TEST(FailingMachines, OptionsThatAreNoNumberAreRefusedWith2) {
+    const std::string scene = scene_path("cube.gltf");
+    for (const char* value : {"nan", "inf", "-inf", "1e999", "", "1m"}) {
+        EXPECT_EQ(run("bake", {scene, "-o", "/nowhere/x", "--neighbour-angle", value}).exit_code, 2) << value;
+        EXPECT_EQ(run("bake", {scene, "-o", "/nowhere/x", "--radius", value}).exit_code, 2) << value;
+        EXPECT_EQ(run("bake", {scene, "-o", "/nowhere/x", "--memory", value}).exit_code, 2) << value;
+        EXPECT_EQ(run("screenshot", {scene, "-o", "/nowhere/x.png", "--exposure", value}).exit_code, 2) << value;
+        EXPECT_EQ(run("reference", {scene, "-o", "/nowhere/x.exr", "--time", value}).exit_code, 2) << value;
+        EXPECT_EQ(run("reference", {scene, "-o", "/nowhere/x.exr", "--error", value}).exit_code, 2) << value;
+    }
+}
+
+/// A variable of the environment while it lives; programs started meanwhile see it.
+class Variable {
+  public:
+    Variable(const char* name, const char* value) : name_(name) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        setenv(name, value, 1);
+    }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+    ~Variable() { before_.empty() ? unsetenv(name_) : setenv(name_, before_.c_str(), 1); }
+
+  private:
+    const char* name_;
+    std::string before_;
+};
+
+TEST(FailingMachines, WithoutVulkanOrItsLayersOneLineSaysWhatToInstall) {
+    const TempFolder folder;
+    const std::string scene = scene_path("cube.gltf");
+    ASSERT_EQ(run("bake", {scene, "-o", folder / "map", "--photons", "1000"}).exit_code, 0);
+    const Words words{scene, folder / "map", "-o", folder / "made.png", "--size", "8x8"};
+    {
+        const Variable drivers("VK_ICD_FILENAMES", "/nowhere.json"), newer("VK_DRIVER_FILES", "/nowhere.json");
+        const Outcome outcome = run("screenshot", words);
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_TRUE(contains(outcome.err, "lumenwalk-screenshot: Vulkan:")) << outcome.err;
+        EXPECT_EQ(run("screenshot", {"--list-devices"}).exit_code, 0);
+    }
+    const Variable layers("VK_LAYER_PATH", "/nowhere");
+    Words checked = words;
+    checked.push_back("--validation");
+    EXPECT_TRUE(contains(run("screenshot", checked).err, "is not installed (vulkan-validationlayers)"));
+    EXPECT_EQ(folder.names(), Words{"map"});
+}
+
+TEST(FailingMachines, AnOddEnvironmentChangesNothing) {
+    const TempFolder folder;
+    const std::string scene = scene_path("cube.gltf");
+    ASSERT_EQ(run("bake", {scene, "-o", folder / "plain", "--photons", "1000"}).exit_code, 0);
+    const Variable locale("LC_ALL", "de_DE.UTF-8"), home("HOME", "/nowhere");
+    ASSERT_EQ(run("bake", {scene, "-o", folder / "odd", "--photons", "1000"}).exit_code, 0);
+    EXPECT_TRUE(read_text(folder / "plain") == read_text(folder / "odd"));
+}
+
+}  // namespace
+}  // namespace lw

@@ -1,0 +1,202 @@
+// Light where it is hard: walls of a millimetre, sheets above sheets, surfaces that keep all or nothing, lamps in odd
+// places, too few photons, photons in one point, sensors on edges. Every reading is a number, and the right one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "maps/build.h"
+#include "maps/estimate.h"
+#include "photons/shoot.h"
+#include "robustness/room.h"
+#include "trace/build_bvh.h"
+#include "trace/emitter.h"
+
+namespace lw::test {
+namespace {
+
+constexpr uint modes[] = {gather_mode_cached, gather_mode_smooth, gather_mode_exact};
+
+double luminance_of(vec3 c) { return double(dot(c, vec3(0.2126f, 0.7152f, 0.0722f))); }
+
+bool is_light(vec3 v) { return std::isfinite(v.x + v.y + v.z) && v.x >= 0 && v.y >= 0 && v.z >= 0; }
+
+/// Illuminance below `height` at (x, z) of the room, looking straight down.
+double lux_below(const Baked& baked, const Room& room, glm::dvec3 from, uint mode) {
+    const Bvh bvh = build_bvh(baked.scene);
+    const std::vector<vec3> weights = light_weights(baked.scene, {});
+    const PhotonEstimator estimator(baked.scene, baked.map, weights, {mode, 200, 4}, bvh);
+    const glm::dvec3 world = glm::dvec3(room.node * glm::dvec4(from, 1)) - baked.scene.origin;
+    const std::optional<Hit> hit = baked.caster.nearest(vec3(world), vec3(0, -1, 0));
+    if (!hit) throw Error("nothing below");
+    return luminance_of(estimator.estimate(hit->triangle, hit->barycentrics, vec3(0, 1, 0)).irradiance);
+}
+
+/// All readings are numbers, on corners and edges of all triangles too; returns the largest.
+double check_everywhere(const Baked& baked, const Room& room) {
+    const Bvh bvh = build_bvh(baked.scene);
+    const std::vector<vec3> weights = light_weights(baked.scene, {});
+    double most = 0;
+    for (uint mode : modes)
+        for (uint neighbours : {1u, 50u, 1'000'000u}) {
+            const PhotonEstimator estimator(baked.scene, baked.map, weights, {mode, neighbours, 1}, bvh);
+            for (uint t = 0; t < baked.scene.triangles.size(); ++t)
+                for (const vec2 at : {vec2(0), vec2(1, 0), vec2(0, 1), vec2(0.5f, 0), vec2(0.5f, 0.5f), vec2(0.3f)})
+                    for (float side : {1.0f, -1.0f}) {
+                        const Surface s = estimator.surface_at(t, at);
+                        const Gathered light = estimator.estimate(t, at, s.geometric_normal * side);
+                        EXPECT_TRUE(is_light(light.irradiance) && is_light(light.radiance))
+                            << "mode " << mode << " k " << neighbours << " triangle " << t;
+                        most = std::max(most, luminance_of(light.irradiance));
+                    }
+        }
+    for (double lux : read(baked, room, gather_mode_smooth).lux) EXPECT_TRUE(std::isfinite(lux));
+    return most;
+}
+
+Room two_rooms(double wall, bool small_triangles) {
+    Room room = plain_room();
+    Soup dark = box({4 + wall, 0, 0}, {8, 3, 5}, true);
+    if (small_triangles) dark = divided(dark, 40);
+    room.walls = joined(small_triangles ? divided(room.walls, 40) : room.walls, dark);
+    room.block.clear();
+    return room;
+}
+
+TEST(Light, NeverComesThroughAClosedWallOfAMillimetre) {
+    for (const auto& [wall, small_triangles] : {std::pair(0.001, false), {0.001, true}, {0.0, false}, {0.0, true}}) {
+        const Room room = two_rooms(wall, small_triangles);  // of 0 m: two sheets in one place
+        const Baked baked(room, 200'000, 1, true);
+        for (const Photon& photon : baked.photons.records)
+            ASSERT_LT(double(photon.position.x) + baked.scene.origin.x, 4.0005);
+        for (uint mode : modes) {
+            EXPECT_GT(lux_below(baked, room, {3.9, 1.5, 2.5}, mode), 1);
+            EXPECT_EQ(lux_below(baked, room, {5.5, 1.5, 2.5}, mode), 0) << mode;
+        }
+    }
+}
+
+TEST(Light, OfAParallelSheetACentimetreAboveStaysThere) {
+    for (int pieces : {1, 60}) {
+        Room room = plain_room();
+        room.block.clear();
+        room.panel_luminance = 0;
+        room.panel.clear();
+        Soup sheet = quad({1, 0.01, 1}, {0, 0, 2}, {2, 0, 0});
+        room.walls = divided(
+            joined(room.walls, joined(sheet, moved(sheet, [](glm::dvec3 p) { return p - glm::dvec3(0, 1e-4, 0); }))),
+            pieces);
+        const Baked baked(room, 200'000, 1, true);
+        const double above = lux_below(baked, room, {2, 1.5, 2}, gather_mode_cached);
+        const double below = lux_below(baked, room, {2, 0.005, 2}, gather_mode_cached);
+        EXPECT_GT(above, 20) << pieces;
+        EXPECT_LT(below, 0.01 * above) << pieces;
+    }
+}
+
+TEST(Light, OfAClosedRoomSumsToWhatItsAlbedoSays) {
+    for (const double albedo : {0.0, 0.5, 0.9, 0.99}) {
+        Room room = plain_room();
+        room.albedo = albedo;
+        room.panel.clear(), room.panel_luminance = 0, room.block.clear();
+        const Baked baked(room, 200'000, 1, true);
+        double landed = 0;
+        for (const Photon& p : baked.photons.records) landed += double(p.flux.y);
+        EXPECT_NEAR(landed * (1 - albedo) / (4 * M_PI), 1, albedo > 0.95 ? 0.06 : 0.02) << albedo;  // 2,000 paths
+        const LightBalance& balance = baked.photons.lights[0];
+        EXPECT_NEAR((balance.absorbed + balance.escaped) / balance.flux_out, 1, 1e-6) << albedo;
+        check_everywhere(baked, room);
+    }
+}
+
+TEST(Light, InARoomThatAbsorbsNothingEnds) {
+    Room room = plain_room();
+    room.albedo = 1;
+    const Baked baked(room, 20'000);
+    EXPECT_FALSE(baked.photons.records.empty());
+    check_everywhere(baked, room);
+}
+
+TEST(Light, InABlackRoomIsTheDirectOne) {
+    Room room = plain_room();
+    room.albedo = 0;
+    room.panel.clear(), room.panel_luminance = 0, room.block.clear();
+    const Baked baked(room, 20'000);
+    EXPECT_TRUE(baked.photons.records.empty());
+    EXPECT_NEAR(lux_below(baked, room, {2.5, 1, 2.5}, gather_mode_cached), 300 / (2.2 * 2.2), 0.01);
+    check_everywhere(baked, room);
+}
+
+TEST(Light, OfALampInAnOddPlaceIsANumber) {
+    const glm::dvec3 on_wall(0, 1.5, 2.5), in_corner(0, 0, 0), on_edge(4, 3, 2), outside(-3, 1, 1), far(1e5, 1e5, 1e5),
+        in_block(1.1, 0.4, 1.4);
+    for (const glm::dvec3& place : {on_wall, in_corner, on_edge, outside, far, in_block}) {
+        Room room = plain_room();
+        room.lamp = place;
+        const Baked baked(room, 5'000);
+        check_everywhere(baked, room);
+    }
+}
+
+TEST(Light, OfALampInAClosedShadeStaysInside) {
+    Room room = plain_room();
+    room.lamp = {1.1, 0.4, 1.4};  // inside the block, whose front is outside
+    room.panel.clear(), room.panel_luminance = 0;
+    const Baked baked(room, 20'000, 1, true);
+    for (uint mode : modes) EXPECT_EQ(lux_below(baked, room, {3, 1, 4}, mode), 0);
+}
+
+TEST(Light, OfZeroPowerIsZero) {
+    Room room = plain_room();
+    room.candela = room.panel_luminance = 0;
+    room.panel.clear();
+    const Baked baked(room, 5'000);
+    EXPECT_EQ(check_everywhere(baked, room), 0);
+}
+
+TEST(Light, OfADimLampStandsBesideOneAMillionTimesBrighter) {
+    Room room = plain_room(), alone = plain_room();
+    room.candela = 300e6, room.panel_luminance = 2000;
+    alone.candela = 0;
+    const Baked both(room), one(alone);
+    std::vector<vec3> dim = light_weights(both.scene, {});
+    ASSERT_EQ(both.scene.lights[0].type, light_point);
+    dim[0] = vec3(0);
+    const Bvh bvh = build_bvh(both.scene);
+    const std::vector<vec3> full = light_weights(one.scene, {});
+    const PhotonEstimator estimator(both.scene, both.map, dim, {gather_mode_cached, 200, 4}, bvh);
+    const PhotonEstimator expected(one.scene, one.map, full, {gather_mode_cached, 200, 4}, bvh);
+    double sum = 0, expected_sum = 0;
+    for (uint t = 0; t < both.scene.triangles.size(); ++t) {
+        const vec3 n = estimator.surface_at(t, vec2(0.3f)).geometric_normal;
+        sum += luminance_of(estimator.estimate(t, vec2(0.3f), n).irradiance);
+        expected_sum += luminance_of(expected.estimate(t, vec2(0.3f), n).irradiance);
+    }
+    EXPECT_NEAR(sum / expected_sum, 1, 0.05);
+}
+
+TEST(Light, OfOnePhotonOrNoneIsANumber) {
+    for (uint64_t count : {1, 2, 3, 10}) {
+        const Room room = plain_room();
+        const Baked baked(room, count);
+        check_everywhere(baked, room);
+        Photons none;
+        none.lights = baked.photons.lights;
+        const PhotonMap empty = build_photon_map(baked.scene, baked.caster, none, {1, 0, 60, 1});
+        EXPECT_TRUE(empty.places.empty());
+    }
+}
+
+TEST(Light, OfPhotonsInOnePointIsANumberAndNotMoreThanThereIs) {
+    const Room room = plain_room();
+    Baked baked(room, 1'000);
+    ASSERT_FALSE(baked.photons.records.empty());
+    const Photon one = baked.photons.records[0];
+    baked.photons.records.assign(5'000, one);
+    baked.map = build_photon_map(baked.scene, baked.caster, baked.photons, {5'000, 0.1f, 60, 1});
+    check_everywhere(baked, room);
+    EXPECT_EQ(baked.map.stored_photons, 5'000u);
+}
+
+}  // namespace
+}  // namespace lw::test
