@@ -72,11 +72,11 @@ LW_CONST uint constant_count = 23u;
 
 LW_CONST uint no_triangle = 0xffffffffu;
 
-/// What the user can dim: photons of the light count `weight` (intensity x factor), its own glow `factor`.
+/// What the user can dim and tint: photons of the light count `weight` (intensity x factor), its own glow `factor`.
 struct Lamp {
     Light light;
     vec3 weight;
-    float factor;
+    vec3 factor;
 };
 
 /// Push constants of visibility and gather: one view of the scene and how to estimate light in it.
@@ -110,7 +110,7 @@ struct Screen {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Lamp) == 76 && sizeof(Screen) == 12);
+static_assert(sizeof(Lamp) == 84 && sizeof(Screen) == 12);
 static_assert(sizeof(Frame) == 116 && offsetof(Frame, inverse_irradiance_scale) == 112);
 }  // namespace lw
 #else

@@ -69,7 +69,7 @@ uint node_coverage(uint node) { return nodes[node].coverage; }
 
 uint node_irradiance(uint node) { return nodes[node].irradiance; }
 
-float lamp_factor(uint light) { return lamps[light].factor; }
+vec3 lamp_factor(uint light) { return lamps[light].factor; }
 
 Light light_at(uint i) { return lamps[i].light; }
 

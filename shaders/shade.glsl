@@ -11,7 +11,7 @@ struct Shaded {
 vec3 own_radiance(Surface s, bool front) LW_MEMBER {
     if ((s.flags & material_unlit) != 0u) return s.base_color;
     if (!front && (s.flags & material_double_sided) == 0u) return vec3(0.0f);
-    return s.emissive * (s.light >= 0 ? lamp_factor(uint(s.light)) : 1.0f);
+    return s.emissive * (s.light >= 0 ? lamp_factor(uint(s.light)) : vec3(1.0f));
 }
 
 /// The surface at (triangle, barycentrics) seen from `eye`.

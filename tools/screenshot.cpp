@@ -119,7 +119,7 @@ void take_screenshot(const Options& o) {
     const lw::Scene scene = lw::load_gltf(o.scene);
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
     const lw::Camera& camera = lw::find_camera(scene, o.camera);
-    const std::vector<float> factors = lw::parse_powers(scene, o.powers);
+    const std::vector<lw::vec3> factors = lw::parse_powers(scene, o.powers);
     const lw::PhotonMap map =
         lw::load_photon_map(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map), scene);
     lw::check_can_create(o.output);

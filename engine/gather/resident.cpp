@@ -113,10 +113,10 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
-    for (const Light& light : scene.lights) lamp_states_.push_back({light, light.intensity, 1});
+    for (const Light& light : scene.lights) lamp_states_.push_back({light, light.intensity, vec3(1)});
     lamps_ = Buffer(device, std::max<size_t>(1, lamp_states_.size()) * sizeof(Lamp), "lights");
     descriptors_.set_buffer(binding_lamps, lamps_);
-    set_light_factors(std::vector<float>(lamp_states_.size(), 1.0f));
+    set_light_factors(std::vector<vec3>(lamp_states_.size(), vec3(1)));
 }
 
 void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh) {
@@ -205,6 +205,10 @@ void Resident::upload_chunks(uint binding, std::span<const T> values, uint shift
 }
 
 void Resident::set_light_factors(std::span<const float> factors) {
+    set_light_factors(std::vector<vec3>(factors.begin(), factors.end()));
+}
+
+void Resident::set_light_factors(std::span<const vec3> factors) {
     assert(factors.size() == lamp_states_.size());
     for (size_t i = 0; i < factors.size(); ++i) {
         lamp_states_[i].weight = lamp_states_[i].light.intensity * factors[i];

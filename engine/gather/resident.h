@@ -28,8 +28,9 @@ class Resident {
     Resident(const Device&, const Scene&, PhotonMap&&, const Bvh& = {},
              ResidentSettings = {}) = delete;  // would not outlive it
 
-    /// Dims the lights: one factor per light of the scene, >= 0. Rewrites one small buffer.
-    void set_light_factors(std::span<const float> factors);
+    /// Dims and tints the lights: one factor per light of the scene, >= 0. Rewrites two small buffers.
+    void set_light_factors(std::span<const vec3> factors);
+    void set_light_factors(std::span<const float> factors);  // the same for R, G and B
 
     const DescriptorSet& descriptors() const { return descriptors_; }
     /// Specialization constants of the scene; gather_mode and heap_size are left to the pass.

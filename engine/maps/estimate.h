@@ -57,10 +57,11 @@ class PhotonEstimator : public SurfaceReader {
     uint photon_flux(uint i) const { return map_.fluxes[i]; }
     uint photon_direction(uint i) const { return map_.directions[i]; }
     vec3 light_weight(uint light) const { return weights_[light]; }
-    float lamp_factor(uint light) const {
-        const vec3 w = weights_[light], full = lights[light].intensity;
-        const int c = full.x > 0 ? 0 : full.y > 0 ? 1 : 2;
-        return full[c] > 0 ? w[c] / full[c] : 1.0f;
+    vec3 lamp_factor(uint light) const {
+        vec3 factor(1);
+        for (int c = 0; c < 3; ++c)
+            if (lights[light].intensity[c] > 0) factor[c] = weights_[light][c] / lights[light].intensity[c];
+        return factor;
     }
     Light light_at(uint i) const { return lights[i]; }
     uint node_coverage(uint node) const { return map_.coverage[node]; }
