@@ -79,11 +79,24 @@ Light light_at(uint i) { return lamps[i].light; }
 #include "rays.glsl"
 #include "direct.glsl"
 #include "shade.glsl"
+#include "inspect.glsl"
 
 void store(uint pixel, vec4 light, vec4 geometry) {
     vec4 before = frame.sample_index == 0u ? vec4(0.0f) : radiance_illuminance[pixel];
     radiance_illuminance[pixel] = before + light * frame.sample_weight;
     if (frame.sample_index == 0u) normal_depth[pixel] = geometry;
+}
+
+/// What the estimate of a pixel stands on; the photons' dots are two pixels wide.
+vec4 inspect_pixel(uint triangle, vec2 barycentrics, uint seed) {
+    Surface s = surface_at(triangle, barycentrics);
+    vec3 to_eye = frame.camera_position - s.position;
+    float pixel_metres = length(to_eye) * 2.0f / (frame.projection.y * float(frame.height));
+    bool front = dot(s.geometric_normal, to_eye) >= 0.0f;
+    vec3 n = front ? s.geometric_normal : -s.geometric_normal;
+    uint map = triangle_maps[2u * triangle + (front ? 0u : 1u)];
+    Inspected i = inspect(map, s, n, normalize(to_eye), pixel_metres, seed);
+    return vec4(i.bandwidth, i.photons, i.relative_error, i.dot_lamp);
 }
 
 void main() {
@@ -96,6 +109,10 @@ void main() {
         return;
     }
     uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
+    if (gather_mode == gather_mode_inspect) {
+        store(pixel, inspect_pixel(visible.x, uintBitsToFloat(visible.yz), seed), vec4(0.0f));
+        return;
+    }
     Shaded seen = shade(visible.x, uintBitsToFloat(visible.yz), frame.camera_position, seed);
     float illuminance = dot(seen.light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
     store(pixel, vec4(seen.light.radiance, illuminance),

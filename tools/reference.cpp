@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "image/exr.h"
 #include "image/replaced_file.h"
+#include "scene/ambiance.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "trace/reference.h"
@@ -15,7 +16,7 @@
 namespace {
 
 struct Options {
-    std::string scene, output, camera, size = "960x540";
+    std::string scene, output, camera, ambiance, size = "960x540";
     std::vector<std::string> powers;
     unsigned threads = 0;
     lw::ReferenceSettings settings;
@@ -47,7 +48,8 @@ void render(Options& options) {
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     lw::check_can_create(options.output);
     const lw::RayCaster caster(scene);
-    const std::vector<lw::vec3> weights = lw::light_weights(scene, lw::parse_powers(scene, options.powers));
+    const std::vector<lw::vec3> weights =
+        lw::light_weights(scene, lw::chosen_factors(scene, options.ambiance, options.powers));
     const lw::Reference reference =
         lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
     lw::write_exr(options.output, reference.image);
@@ -78,6 +80,8 @@ int main(int argc, char** argv) {
         ->allow_extra_args(false);
     app.add_flag("!--no-illuminance", options.settings.illuminance,
                  "leave out the illuminance channel (half the time)");
+    app.add_option("--ambiance", options.ambiance,
+                   "powers of this name in SCENE.ambiances.json; --power multiplies them");
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
     app.add_option("--threads", options.threads, "worker threads (0: all cores)")
         ->capture_default_str()

@@ -10,6 +10,7 @@
 #include "image/exr.h"
 #include "image/png.h"
 #include "image/replaced_file.h"
+#include "scene/ambiance.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "trace/build_bvh.h"
@@ -17,7 +18,7 @@
 namespace {
 
 struct Options {
-    std::string scene, map, output, camera, size, gather = "cached", device;
+    std::string scene, map, output, camera, size, gather = "cached", device, ambiance;
     std::vector<std::string> powers;
     unsigned neighbours = lw::GatherSettings{}.neighbours, samples = 1, frames = 3,
              shadow_rays = lw::GatherSettings{}.shadow_rays;
@@ -34,6 +35,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--size", o.size, "pixels as WxH; default: 1280 wide with the aspect of the camera");
     app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
         ->allow_extra_args(false);
+    app.add_option("--ambiance", o.ambiance, "powers of this name in SCENE.ambiances.json; --power multiplies them");
     app.add_option("--neighbours", o.neighbours, "photons per estimate")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
@@ -119,7 +121,7 @@ void take_screenshot(const Options& o) {
     const lw::Scene scene = lw::load_gltf(o.scene);
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
     const lw::Camera& camera = lw::find_camera(scene, o.camera);
-    const std::vector<lw::vec3> factors = lw::parse_powers(scene, o.powers);
+    const std::vector<lw::vec3> factors = lw::chosen_factors(scene, o.ambiance, o.powers);
     const lw::PhotonMap map =
         lw::load_photon_map(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map), scene);
     lw::check_can_create(o.output);

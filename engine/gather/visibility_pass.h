@@ -16,7 +16,8 @@ static_assert(sizeof(VisibleSample) == 16);
 class VisibilityPass {
   public:
     VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size);
-    /// Afterwards texture() is readable by compute shaders.
+    /// Draws frame.width x frame.height pixels from the top left corner, at most the pass's size. Afterwards texture()
+    /// is readable by compute shaders.
     void record(vk::CommandBuffer commands, const Frame& frame) const;
     const Target& texture() const { return visible_; }
     /// The samples of the last recorded and finished frame, row 0 on top.

@@ -7,8 +7,8 @@
 namespace lw {
 namespace {
 
-constexpr auto usage =
-    vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eColorAttachment;
+constexpr auto usage = vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc |
+                       vk::ImageUsageFlagBits::eColorAttachment;
 
 vk::SurfaceFormatKHR choose_format(const Device& device, vk::SurfaceKHR surface) {
     for (const vk::SurfaceFormatKHR& f : device.physical().getSurfaceFormatsKHR(surface))

@@ -44,6 +44,7 @@ struct Scene {
 
     std::vector<Light> lights;
     std::vector<std::string> light_names;  // unique; per light
+    std::vector<std::string> light_groups;  // name of the node above each light, "" at the root
     std::vector<Emitter> emitters;         // triangles of mesh lights, grouped per light
     std::vector<Camera> cameras;           // at least one
 
