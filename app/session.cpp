@@ -161,15 +161,9 @@ Shot shot_of(const Session& s, uint divisor) {
 
 Look look_of(const Session& s, bool bgr) {
     const Viewing& v = s.viewing;
-    return {v.view,
-            v.curve,
-            v.exposure_ev,
-            v.low,
-            v.high,
-            v.logarithmic && !is_signed_view(v.view),
-            v.lines ? 10u : 0u,
-            s.comparison.on ? s.comparison.split : 1.0f,
-            bgr};
+    const bool logarithmic = v.logarithmic && !is_signed_view(v.view);
+    const ViewKind kind{v.view, v.curve, v.lines && v.view != view_shaded, s.comparison.on};
+    return {kind, v.exposure_ev, v.low, v.high, logarithmic, 10, s.comparison.split, bgr};
 }
 
 void measure_again(Session& s, const PhotonMap& map, bool all) {

@@ -29,10 +29,8 @@ ViewPush push_of(const Look& look, vk::Extent2D screen, vk::Extent2D picture, ui
     push.screen = uvec2(screen.width, screen.height);
     push.picture = uvec2(picture.width, picture.height);
     push.scale_light = 1.0f / float(samples);
-    push.scale_other = is_inspection(look.view) ? 1.0f : push.scale_light;
+    push.scale_other = is_inspection(look.kind.view) ? 1.0f : push.scale_light;
     push.exposure_ev = look.exposure_ev;
-    push.curve = look.curve;
-    push.view = look.view;
     push.low = look.low;
     push.high = look.high;
     push.logarithmic = look.logarithmic;
@@ -80,7 +78,7 @@ void Stage::set_lamps(const std::vector<vec3>& factors) {
 
 void Stage::record(vk::CommandBuffer& commands, const Shot& shot, const Look& look, uint slot,
                    const std::function<void(vk::CommandBuffer&)>& flush) {
-    const bool same = shows(shot, look.view);
+    const bool same = shows(shot, look.kind.view);
     const bool sharpen = same && picture_size_ != live_->size();
     const bool draws = !same || sharpen || samples_ < shot.most_samples;
     if (!same || sharpen) {
@@ -94,13 +92,13 @@ void Stage::record(vk::CommandBuffer& commands, const Shot& shot, const Look& lo
         live_->record_visibility(commands, frame_of_sample(shot.camera, picture_size_, samples_));
         times.write(commands, 1);
         record_lights(commands, shot, look, flush);
-        drawn_ = {shot, look.view};
+        drawn_ = {shot, look.kind.view};
         ++samples_;
     } else {
         times.write(commands, 1);
     }
     times.write(commands, 2);
-    live_->record_view(commands, push_of(look, live_->size(), picture_size_, samples_), slot);
+    live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_), slot);
     times.write(commands, 3);
     timed_[slot] = true;
 }
@@ -111,7 +109,7 @@ void Stage::record_lights(vk::CommandBuffer& commands, const Shot& shot, const L
     set_lamps(shot.lamps_a);
     const Frame frame = frame_of_sample(shot.camera, picture_size_, samples_);
     live_->record_light(commands, frame, shot.gather, Side::a);
-    if (is_inspection(look.view)) {
+    if (is_inspection(look.kind.view)) {
         if (samples_ > 0) return;
         GatherSettings inspect = shot.gather;
         inspect.mode = gather_mode_inspect;

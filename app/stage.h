@@ -9,14 +9,13 @@ namespace lw {
 
 /// How a frame is to look.
 struct Look {
-    uint view = view_shaded;
-    uint curve = curve_neutral;
+    ViewKind kind;
     float exposure_ev = 7;
     float low = 0, high = 500;  // false colours
     bool logarithmic = false;
-    uint lines = 0;    // isolux lines over the range
-    float split = 1;   // B is shown right of this part of the width
-    bool bgr = false;  // byte order of the screen
+    uint lines = 0;      // isolux lines over the range
+    float split = 0.5f;  // B is shown right of this part of the width
+    bool bgr = false;    // byte order of the screen
 };
 
 /// What a frame is to show.

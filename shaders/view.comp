@@ -6,6 +6,11 @@
 #include "view.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = constant_view) const uint shown_view = view_shaded;
+layout(constant_id = constant_curve) const uint shown_curve = curve_neutral;
+layout(constant_id = constant_has_lines) const bool has_lines = true;
+layout(constant_id = constant_has_split) const bool has_split = true;
+layout(constant_id = constant_is_scaled) const bool is_scaled = true;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 layout(set = 0, binding = binding_view_light, scalar) readonly buffer Light { vec4 light[]; };
 layout(set = 0, binding = binding_view_other, scalar) readonly buffer Other { vec4 other[]; };
@@ -37,32 +42,32 @@ vec4 light_between(vec2 at, uint side) {
 }
 
 vec4 light_at_screen(vec2 at, uint side) {
-    if (push.screen != push.picture) return light_between(at * vec2(push.picture) / vec2(push.screen), side);
+    if (is_scaled) return light_between(at * vec2(push.picture) / vec2(push.screen), side);
     uint p = pixel_at(ivec2(at));
     return side == 0u ? light[p] * push.scale_light : other[p] * push.scale_other;
 }
 
-ivec2 nearest_pixel(vec2 at) { return ivec2(at * vec2(push.picture) / vec2(push.screen)); }
+ivec2 nearest_pixel(vec2 at) { return is_scaled ? ivec2(at * vec2(push.picture) / vec2(push.screen)) : ivec2(at); }
 
 /// What the view shows in false colours, in its unit.
 float value_at(vec2 at, bool right_side) {
-    if (is_inspection(push.view)) {
+    if (is_inspection(shown_view)) {
         vec4 inspected = other[pixel_at(nearest_pixel(at))];
-        if (push.view == view_bandwidth) return 100.0f * inspected.x;
-        if (push.view == view_error) return 100.0f * inspected.z;
-        return push.view == view_photons ? inspected.w : inspected.y;
+        if (shown_view == view_bandwidth) return 100.0f * inspected.x;
+        if (shown_view == view_error) return 100.0f * inspected.z;
+        return shown_view == view_photons ? inspected.w : inspected.y;
     }
-    vec4 a = light_at_screen(at, right_side && !is_signed_view(push.view) ? 1u : 0u);
-    if (push.view == view_luminance || push.view == view_shaded) return luminance(a.xyz);
-    if (push.view == view_illuminance) return a.w;
+    vec4 a = light_at_screen(at, right_side && !is_signed_view(shown_view) ? 1u : 0u);
+    if (shown_view == view_luminance || shown_view == view_shaded) return luminance(a.xyz);
+    if (shown_view == view_illuminance) return a.w;
     float change = light_at_screen(at, 1u).w - a.w;
-    if (push.view == view_difference) return change;
+    if (shown_view == view_difference) return change;
     return a.w > 1e-4f ? 100.0f * change / a.w : (change > 1e-4f ? 1e6f : 0.0f);
 }
 
 vec3 shaded(vec4 a) {
     if (any(isnan(a.xyz))) return vec3(1.0f, 0.0f, 1.0f);
-    return encode_srgb(apply_curve(max(a.xyz, vec3(0.0f)) * exposure_scale(push.exposure_ev), push.curve));
+    return encode_srgb(apply_curve(max(a.xyz, vec3(0.0f)) * exposure_scale(push.exposure_ev), shown_curve));
 }
 
 float depth_at(vec2 at) { return normal_depth[pixel_at(nearest_pixel(at))].w; }
@@ -84,13 +89,13 @@ bool is_on_line(vec2 at, bool right_side) {
 
 vec3 color_at(vec2 at, bool right_side) {
     vec4 a = light_at_screen(at, right_side ? 1u : 0u);
-    if (push.view == view_shaded) return shaded(a);
+    if (shown_view == view_shaded) return shaded(a);
     if (depth_at(at) <= 0.0f) return vec3(0.0f);
     float value = value_at(at, right_side);
-    if (push.view == view_photons) return value > 0.5f ? lamp_color(uint(value + 0.5f) - 1u) : 0.35f * shaded(a);
+    if (shown_view == view_photons) return value > 0.5f ? lamp_color(uint(value + 0.5f) - 1u) : 0.35f * shaded(a);
     if (isnan(value)) return vec3(1.0f, 0.0f, 1.0f);
-    vec3 color = view_color(push.view, value, push.low, push.high, push.logarithmic != 0u);
-    return push.lines > 0u && is_on_line(at, right_side) ? vec3(0.02f) : color;
+    vec3 color = view_color(shown_view, value, push.low, push.high, push.logarithmic != 0u);
+    return has_lines && is_on_line(at, right_side) ? vec3(0.02f) : color;
 }
 
 /// Writes the value of the one pixel that stands for its cell of the glance.
@@ -112,10 +117,9 @@ void main() {
     if (xy.x >= push.screen.x || xy.y >= push.screen.y) return;
     vec2 at = vec2(xy) + 0.5f;
     float edge = push.split * float(push.screen.x);
-    bool right_side = push.split < 1.0f && at.x > edge && !is_inspection(push.view) && !is_signed_view(push.view);
+    bool right_side = has_split && at.x > edge;
     vec3 color = color_at(at, right_side);
-    if (push.split < 1.0f && !is_inspection(push.view) && !is_signed_view(push.view) && abs(at.x - edge) < 1.0f)
-        color = vec3(1.0f);
+    if (has_split && abs(at.x - edge) < 1.0f) color = vec3(1.0f);
     if (push.bgr != 0u) color = color.zyx;
     codes[xy.y * push.screen.x + xy.x] = packUnorm4x8(vec4(color, 1.0f));
     give_glance(xy, at, right_side);

@@ -29,6 +29,14 @@ LW_CONST uint binding_view_geometry = 2u;
 LW_CONST uint binding_view_screen = 3u;
 LW_CONST uint binding_view_glance = 4u;
 
+// Specialization constants of the view pass: some devices run both sides of a branch.
+LW_CONST uint constant_view = 0u;
+LW_CONST uint constant_curve = 1u;
+LW_CONST uint constant_has_lines = 2u;
+LW_CONST uint constant_has_split = 3u;
+LW_CONST uint constant_is_scaled = 4u;  // picture and screen differ in size
+LW_CONST uint view_constant_count = 5u;
+
 /// A grid of pixels whose values go back to the CPU each frame, for exposure and ranges.
 LW_CONST uint glance_columns = 64u;
 LW_CONST uint glance_rows = 36u;
@@ -47,8 +55,6 @@ struct ViewPush {
     float scale_light;  // 1 / samples summed in A
     float scale_other;
     float exposure_ev;
-    uint curve;
-    uint view;
     float low;   // false colours from low to high
     float high;
     uint logarithmic;
@@ -118,7 +124,7 @@ LW_INLINE vec3 view_color(uint view, float value, float low, float high, bool lo
 }
 
 #ifdef __cplusplus
-static_assert(sizeof(Glance) == 16 && sizeof(ViewPush) == 60 && offsetof(ViewPush, bgr) == 56);
+static_assert(sizeof(Glance) == 16 && sizeof(ViewPush) == 52 && offsetof(ViewPush, bgr) == 48);
 }  // namespace lw
 #endif
 #endif

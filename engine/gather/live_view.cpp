@@ -33,9 +33,9 @@ void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, cons
     pass_for(settings).record(commands, with_gather(frame, *resident_, settings), side == Side::a ? a_ : b_);
 }
 
-void LiveView::record_view(vk::CommandBuffer commands, const ViewPush& push, uint slot) const {
+void LiveView::record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {
     stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
-    view_.record(commands, push, slot);
+    view_.record(commands, kind, push, slot);
     stage_barrier(commands, Stage::eAllCommands, Stage::eTransfer | Stage::eHost);
 }
 

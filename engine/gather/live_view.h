@@ -27,7 +27,7 @@ class LiveView {
     /// sum give every frame the sample_weight 1. Throws Error for too many neighbours of the exact mode.
     void record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side);
     /// Records the screen picture, and the glance of frame slot 0 or 1. Afterwards screen() may be copied.
-    void record_view(vk::CommandBuffer commands, const ViewPush& push, uint slot) const;
+    void record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot);
     /// sRGB codes of the last view, 4 bytes a pixel.
     const Buffer& screen() const { return a_.screen(); }
     /// What record_view() wrote into a slot; its commands must have finished.

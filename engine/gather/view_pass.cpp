@@ -16,7 +16,8 @@ std::vector<Binding> view_bindings() {
 }  // namespace
 
 ViewPass::ViewPass(const Device& device, const Picture& a, const Picture& b)
-    : glance_(upload<Glance>(device, std::vector<Glance>(glance_bytes / sizeof(Glance)), "glance")),
+    : device_(&device),
+      glance_(upload<Glance>(device, std::vector<Glance>(glance_bytes / sizeof(Glance)), "glance")),
       read_back_{Buffer(device, glance_bytes, "glance", Buffer::Place::host),
                  Buffer(device, glance_bytes, "glance", Buffer::Place::host)},
       descriptors_(device, view_bindings()) {
@@ -28,11 +29,24 @@ ViewPass::ViewPass(const Device& device, const Picture& a, const Picture& b)
     descriptors_.set_buffer(binding_view_glance, glance_);
     const vk::DescriptorSetLayout sets[] = {descriptors_.layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(ViewPush));
-    pipeline_ = make_compute_pipeline(device, *layout_, view_comp, {});
 }
 
-void ViewPass::record(vk::CommandBuffer commands, const ViewPush& push, uint slot) const {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled) {
+    vk::UniquePipeline& pipeline = pipelines_[{kind, is_scaled}];
+    if (!pipeline) {
+        std::array<uint, view_constant_count> constants{};
+        constants[constant_view] = kind.view;
+        constants[constant_curve] = kind.curve;
+        constants[constant_has_lines] = kind.has_lines;
+        constants[constant_has_split] = kind.has_split && !is_inspection(kind.view) && !is_signed_view(kind.view);
+        constants[constant_is_scaled] = is_scaled;
+        pipeline = make_compute_pipeline(*device_, *layout_, view_comp, constants);
+    }
+    return *pipeline;
+}
+
+void ViewPass::record(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_for(kind, push.screen != push.picture));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, descriptors_.handle(), {});
     commands.pushConstants<ViewPush>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
     commands.dispatch((push.screen.x + 7) / 8, (push.screen.y + 7) / 8, 1);

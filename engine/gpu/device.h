@@ -13,7 +13,7 @@ namespace lw {
 struct DeviceSettings {
     std::string name;         // part of the device's name, any case; empty: discrete before integrated before CPU
     bool validation = false;  // Khronos validation layer with synchronization checks
-    std::vector<std::string> window_extensions;  // of the instance; any: the device must be able to present
+    std::vector<std::string> window_extensions{};  // of the instance; any: the device must be able to present
 };
 
 /// Errors and warnings of the validation layer, in order; filled from any thread.
