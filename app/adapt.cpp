@@ -60,7 +60,7 @@ void adapt_to(Viewing& v, const std::vector<Glance>& glance, float seconds) {
 
 uint Divisor::next(uint wanted, const Statistics& last, bool still) {
     if (wanted > 0) return wanted;
-    if (last.times.gather_ms > 0.01) whole_ms_ = last.times.sum() * (still ? 1 : now_ * now_);
+    if (last.times.gather_ms > 0.1) whole_ms_ = last.times.sum() * last.times.divisor * last.times.divisor;
     const uint needed = uint(std::clamp(std::ceil(std::sqrt(whole_ms_ / wanted_ms)), 1.0, double(most)));
     now_ = still ? needed : std::max(now_, needed);
     return now_;

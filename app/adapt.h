@@ -21,8 +21,8 @@ class Divisor {
     uint next(uint wanted, const Statistics& last, bool still);
 
   private:
-    uint now_ = 1;
-    double whole_ms_ = 0;  // of a frame with all pixels
+    uint now_ = most;
+    double whole_ms_ = 1e9;  // of a frame with all pixels; not known yet
 };
 
 }  // namespace lw

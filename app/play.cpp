@@ -37,6 +37,7 @@ Rgb8Image read_screen(const Device& device, const Stage& stage, vk::Extent2D siz
 /// One frame, all its samples, made and waited for.
 FrameTimes make_frame_of(const Device& device, Stage& stage, const Shot& shot, const Look& look) {
     FrameTimes times{};
+    stage.forget();
     const Clock::time_point start = Clock::now();
     for (uint i = 0; i < shot.most_samples; ++i) {
         submit_and_wait(device, [&](vk::CommandBuffer commands) {

@@ -100,7 +100,7 @@ void Stage::record(vk::CommandBuffer& commands, const Shot& shot, const Look& lo
     times.write(commands, 2);
     live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_), slot);
     times.write(commands, 3);
-    timed_[slot] = true;
+    timed_[slot] = std::max(1u, live_->size().width / picture_size_.width);
 }
 
 void Stage::record_lights(vk::CommandBuffer& commands, const Shot& shot, const Look& look,
@@ -126,7 +126,7 @@ void Stage::record_lights(vk::CommandBuffer& commands, const Shot& shot, const L
 StageTimes Stage::times(uint slot) const {
     if (!timed_[slot]) return {};
     const std::vector<double> ms = timestamps_[slot].intervals_ms();
-    return {ms[0], ms[1], ms[2]};
+    return {ms[0], ms[1], ms[2], timed_[slot]};
 }
 
 }  // namespace lw

@@ -30,6 +30,7 @@ struct Shot {
 /// Milliseconds of the passes of a frame, on the device's clock.
 struct StageTimes {
     double visibility_ms = 0, gather_ms = 0, view_ms = 0;
+    uint divisor = 1;  // of the picture's sides
     double sum() const { return visibility_ms + gather_ms + view_ms; }
 };
 
@@ -47,6 +48,8 @@ class Stage {
     /// anew: lamps B are set between two parts of a frame.
     void record(vk::CommandBuffer& commands, const Shot& shot, const Look& look, uint slot,
                 const std::function<void(vk::CommandBuffer&)>& flush);
+    /// The next frame starts anew, whatever it shows.
+    void forget() { drawn_.reset(); }
     const Buffer& screen() const { return live_->screen(); }
     uint samples() const { return samples_; }
     /// True when more frames of the same shot would change nothing.
@@ -76,7 +79,7 @@ class Stage {
     uint samples_ = 0;
     std::vector<vec3> lamps_set_;
     std::array<Timestamps, 2> timestamps_;
-    std::array<bool, 2> timed_{};
+    std::array<uint, 2> timed_{};  // divisor of each slot's frame, 0: none yet
 };
 
 }  // namespace lw

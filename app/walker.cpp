@@ -102,6 +102,7 @@ Walker settled(Walker w, float seconds, const Body& body, const Surroundings& ar
     if (!around.is_free(w.eye, w.eye + vec3(0, change + std::copysign(0.3f * body.radius, change), 0))) return w;
     w.height += change;
     w.eye.y += change;
+    w.settling = std::abs(body.eye_height - w.height) > 1e-3f;
     return w;
 }
 
@@ -143,9 +144,11 @@ Walker walk(const Walker& before, const WalkInput& input, float seconds, const B
     const vec3 way = at_most_unit(right_of(w) * input.move.x + ahead_of(w) * input.move.z) * (speed * dt);
     const bool moves = length(way) > 0;
     if (moves) w = walked(w, way, body, around);
-    const bool fell_before = w.fall_speed > 0;
-    if (moves || fell_before) w = fallen(w, dt, body, around);
-    return moves || fell_before || w.fall_speed > 0 ? settled(w, dt, body, around) : w;
+    if (moves || w.fall_speed > 0) {
+        w = fallen(w, dt, body, around);
+        w.settling = true;
+    }
+    return w.settling ? settled(w, dt, body, around) : w;
 }
 
 Walker walker_at(const Camera& camera, const Body& body, const Surroundings& around) {
@@ -160,6 +163,7 @@ Walker walker_at(const Camera& camera, const Body& body, const Surroundings& aro
 Walker land(Walker w, const Body& body, const Surroundings& around) {
     const std::optional<float> floor = around.floor_below(w.eye);
     w.fall_speed = 0;
+    w.settling = false;
     w.flying = !floor;
     w.height = body.eye_height;
     if (floor && w.eye.y - *floor < 1.6f * body.eye_height) w.height = w.eye.y - *floor;

@@ -124,6 +124,8 @@ Device::Device(const DeviceSettings& settings) {
         name_ = name_of(physical_);
         limits_ = physical_.getProperties().limits;
         create_device(presents);
+    } catch (const vk::IncompatibleDriverError&) {
+        throw Error("Vulkan: no driver found (mesa-vulkan-drivers has one that runs on the CPU)");
     } catch (const vk::SystemError& failure) {
         throw Error("Vulkan: cannot be started: " + std::string(failure.what()));
     }

