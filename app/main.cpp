@@ -47,12 +47,12 @@ void add_options(CLI::App& app, Options& o) {
                  "run with the Vulkan validation layer; any message is an error");
 }
 
-/// Whether the text is WIDTHxHEIGHT with both from 64 to 16384, or empty.
+/// Whether the text is WIDTHxHEIGHT with both from 16 to 16384, or empty.
 bool parse_size(const std::string& text, vk::Extent2D& size) {
     char end = 0;
     if (text.empty()) return true;
-    return std::sscanf(text.c_str(), "%ux%u%c", &size.width, &size.height, &end) == 2 && size.width >= 64 &&
-           size.height >= 64 && size.width <= 16384 && size.height <= 16384;
+    return std::sscanf(text.c_str(), "%ux%u%c", &size.width, &size.height, &end) == 2 && size.width >= 16 &&
+           size.height >= 16 && size.width <= 16384 && size.height <= 16384;
 }
 
 void run(Options& o) {
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
         if (!parse_size(options.size, options.walk.size))
-            throw CLI::ValidationError("--size: must be WxH in pixels, from 64x64 to 16384x16384");
+            throw CLI::ValidationError("--size: must be WxH in pixels, from 16x16 to 16384x16384");
         if (options.play.path.empty() && !(options.play.frames.empty() && options.play.timings.empty()))
             throw CLI::ValidationError("--frames and --timings: only with --play");
     } catch (const CLI::ParseError& wrong) {

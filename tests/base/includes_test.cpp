@@ -37,7 +37,7 @@ const std::map<std::string, std::vector<std::string>> fences = {
     {"CLI/", {}},
     {"GLFW/", {}},
     {"imgui", {}},
-    {"nlohmann/", {"scene/ambiance.", "scene/json_file."}},
+    {"nlohmann/", {"scene/ambiance.", "scene/json_file.", "scene/gltf_file."}},
 };
 
 struct Include {
