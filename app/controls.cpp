@@ -71,9 +71,8 @@ void apply_lamp_key(Session& s, int key) {
     if (key == GLFW_KEY_I) lamp.solo = !lamp.solo;
 }
 
-void apply_key(Session& s, Window& window, int key) {
-    const bool shift = held(window, {GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT}) > 0;
-    const bool control = held(window, {GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL}) > 0;
+void apply_key(Session& s, Window& window, const KeyPress& press) {
+    const int key = press.key;
     if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !fly_to(s, size_t(key - GLFW_KEY_1)))
         tell(s, "no camera or bookmark " + std::to_string(key - GLFW_KEY_0), 2);
     switch (key) {
@@ -100,7 +99,7 @@ void apply_key(Session& s, Window& window, int key) {
         case GLFW_KEY_R:
             return toggle_recording(s);
         case GLFW_KEY_V:
-            return change_view(s, shift ? -1 : 1);
+            return change_view(s, press.shift ? -1 : 1);
         case GLFW_KEY_L:
             s.viewing.lines = !s.viewing.lines;
             return;
@@ -118,7 +117,7 @@ void apply_key(Session& s, Window& window, int key) {
             s.viewing.auto_exposure = true;
             return;
         case GLFW_KEY_Q:
-            if (control) window.close();
+            if (press.control) window.close();
             return;
         default:
             apply_lamp_key(s, key);
@@ -141,8 +140,8 @@ WalkInput walk_input(const Window& window, const Events& events, Taken taken, fl
 }
 
 void apply_keys(Session& s, Window& window, const Events& events, Taken taken, float wheel) {
-    for (int key : events.keys)
-        if (!taken.keyboard || key == GLFW_KEY_F1 || key == GLFW_KEY_F11) apply_key(s, window, key);
+    for (const KeyPress& press : events.keys)
+        if (!taken.keyboard || press.key == GLFW_KEY_F1 || press.key == GLFW_KEY_F11) apply_key(s, window, press);
     if (wheel == 0 || taken.mouse || s.lighting.selected < 0) return;
     float& dimmer = s.lighting.board[size_t(s.lighting.selected)].dimmer;
     dimmer = std::clamp(dimmer + 0.05f * wheel, 0.0f, 2.0f);

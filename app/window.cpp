@@ -36,8 +36,9 @@ Window::Window(const std::string& title, vk::Extent2D size) {
         throw Error("no window: " + reason);
     }
     glfwSetWindowUserPointer(window_, this);
-    static const auto on_key = [](GLFWwindow* w, int key, int, int action, int) {
-        if (action == GLFW_PRESS) window_of(w).events_.keys.push_back(key);
+    static const auto on_key = [](GLFWwindow* w, int key, int, int action, int mods) {
+        if (action == GLFW_PRESS)
+            window_of(w).events_.keys.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
     };
     static const auto on_button = [](GLFWwindow* w, int button, int action, int) {
         if (action != GLFW_PRESS || button > GLFW_MOUSE_BUTTON_RIGHT) return;

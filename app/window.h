@@ -14,9 +14,15 @@ struct Click {
     bool right = false;  // button
 };
 
+/// A key as it was pressed: by the time it is handled Shift and Ctrl may be up again.
+struct KeyPress {
+    int key;  // GLFW code
+    bool shift, control;
+};
+
 /// What happened since the last poll.
 struct Events {
-    std::vector<int> keys;  // GLFW key codes, pressed
+    std::vector<KeyPress> keys;
     std::vector<Click> clicks;
     vk::Extent2D size;               // of the picture, pixels; 0 while minimised
     float mouse_x = 0, mouse_y = 0;  // moved, in screen units; only while captured

@@ -62,7 +62,7 @@ class Display {
 };
 
 inline void xdotool(const std::string& words) {
-    EXPECT_EQ(std::system(("xdotool " + words + " >/dev/null 2>&1").c_str()), 0) << "xdotool " << words;
+    EXPECT_EQ(std::system(("timeout 20 xdotool " + words + " >/dev/null 2>&1").c_str()), 0) << "xdotool " << words;
 }
 
 /// lumenwalk at work in a window that has the keyboard; a scene of data/ is copied into its folder first.
@@ -105,8 +105,14 @@ class WalkingWindow {
         return folder_ / name;
     }
 
+    /// Ends it as a user does; by force, which fails the test, when it does not go within a minute.
     Outcome close() {
         key("ctrl+q");
+        const auto is_gone = [&] {
+            siginfo_t state{};
+            return waitid(P_PID, id_t(process_->id()), &state, WEXITED | WNOHANG | WNOWAIT) == 0 && state.si_pid != 0;
+        };
+        if (!wait_until(is_gone, 60)) kill(process_->id(), SIGKILL);
         return process_->wait();
     }
 
