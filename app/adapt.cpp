@@ -36,7 +36,9 @@ vec2 range_of(std::vector<float> values, uint view, bool logarithmic) {
         for (float& v : values) v = std::abs(v);
     std::sort(values.begin(), values.end());
     const auto percentile = [&](size_t p) { return values[std::min(values.size() - 1, values.size() * p / 100)]; };
-    const float high = std::max(rounded_up(percentile(98)), 1e-3f);
+    float top = percentile(98);
+    if (!is_signed_view(view) && !logarithmic && percentile(50) > 0) top = std::min(top, 6 * percentile(50));
+    const float high = std::max(rounded_up(top), 1e-3f);
     if (is_signed_view(view)) return {-high, high};
     return {logarithmic ? std::max(rounded_down(percentile(2)), 1e-4f * high) : 0.0f, high};
 }

@@ -114,7 +114,7 @@ void play(const PlaySettings& settings) {
     make(0);  // pipelines are made and the exposure is found before the clock runs
     for (size_t i = 0; i < count; ++i) {
         check_interrupt();
-        adapt_to(viewing, stage.glance(0), i == 0 ? 10.0f : float(1 / path.frames_per_second));
+        adapt_to(viewing, stage.glance(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));
         frames.push_back(make(i));
         if (!settings.frames.empty())
             write_png(frame_name(settings.frames, i), read_screen(device, stage, settings.size));

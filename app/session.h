@@ -71,7 +71,6 @@ struct Statistics {
     double frame_ms = 0;  // from one image to the next, averaged
     uint64_t device_bytes = 0;
     uint samples = 0;
-    uint divisor = 1;
 };
 
 struct Session {

@@ -5,6 +5,8 @@
 namespace lw {
 namespace {
 
+constexpr uint coarse_samples = 4;  // of a picture with fewer pixels, until it sharpens
+
 bool same_camera(const Camera& a, const Camera& b) {
     return a.position == b.position && a.rotation == b.rotation && a.yfov == b.yfov && a.near == b.near;
 }
@@ -79,8 +81,9 @@ void Stage::set_lamps(const std::vector<vec3>& factors) {
 void Stage::record(vk::CommandBuffer& commands, const Shot& shot, const Look& look, uint slot,
                    const std::function<void(vk::CommandBuffer&)>& flush) {
     const bool same = shows(shot, look.kind.view);
-    const bool sharpen = same && picture_size_ != live_->size();
-    const bool draws = !same || sharpen || samples_ < shot.most_samples;
+    const bool sharpen = same && shot.sharpens && picture_size_ != live_->size();
+    const bool draws =
+        !same || sharpen || samples_ < (picture_size_ == live_->size() ? shot.most_samples : coarse_samples);
     if (!same || sharpen) {
         samples_ = 0;
         picture_size_ = divided(live_->size(), sharpen ? 1 : shot.divisor);
@@ -100,6 +103,7 @@ void Stage::record(vk::CommandBuffer& commands, const Shot& shot, const Look& lo
     times.write(commands, 2);
     live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_), slot);
     times.write(commands, 3);
+    views_[slot] = look.kind.view;
     timed_[slot] = std::max(1u, live_->size().width / picture_size_.width);
 }
 
@@ -121,6 +125,10 @@ void Stage::record_lights(vk::CommandBuffer& commands, const Shot& shot, const L
         flush(commands);
         set_lamps(shot.lamps_a);
     }
+}
+
+std::vector<Glance> Stage::glance(uint slot, uint view) const {
+    return timed_[slot] && views_[slot] == view ? live_->glance(slot) : std::vector<Glance>();
 }
 
 StageTimes Stage::times(uint slot) const {

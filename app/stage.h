@@ -25,6 +25,7 @@ struct Shot {
     GatherSettings gather;
     uint most_samples = 1;  // while nothing changes
     uint divisor = 1;       // of the picture's width and height while things change
+    bool sharpens = true;   // to all pixels once nothing changes
 };
 
 /// Milliseconds of the passes of a frame, on the device's clock.
@@ -50,11 +51,14 @@ class Stage {
                 const std::function<void(vk::CommandBuffer&)>& flush);
     /// The next frame starts anew, whatever it shows.
     void forget() { drawn_.reset(); }
+    /// True when the next frame of this shot adds to the picture instead of starting anew.
+    bool shows(const Shot& shot, uint view) const;
     const Buffer& screen() const { return live_->screen(); }
     uint samples() const { return samples_; }
     /// True when more frames of the same shot would change nothing.
     bool is_finished(const Shot& shot) const;
-    std::vector<Glance> glance(uint slot) const { return live_->glance(slot); }
+    /// Values of the last frame of a slot, whose commands must have finished; empty when it showed another view.
+    std::vector<Glance> glance(uint slot, uint view) const;
     /// Times of the last frame of a slot; its commands must have finished.
     StageTimes times(uint slot) const;
     /// Values of what A shows (Rendering::image); waits for the device.
@@ -65,7 +69,6 @@ class Stage {
         Shot shot;
         uint inspected_view = view_shaded;
     };
-    bool shows(const Shot& shot, uint view) const;
     void set_lamps(const std::vector<vec3>& factors);
     void record_lights(vk::CommandBuffer& commands, const Shot& shot, const Look& look,
                        const std::function<void(vk::CommandBuffer&)>& flush);
@@ -79,6 +82,7 @@ class Stage {
     uint samples_ = 0;
     std::vector<vec3> lamps_set_;
     std::array<Timestamps, 2> timestamps_;
+    std::array<uint, 2> views_{};  // of each slot's frame
     std::array<uint, 2> timed_{};  // divisor of each slot's frame, 0: none yet
 };
 

@@ -130,7 +130,7 @@ void draw_statistics(const Session& s) {
     ImGui::Text("%.1f frames/s, %.1f ms", t.frame_ms > 0 ? 1000 / t.frame_ms : 0, t.frame_ms);
     ImGui::Text("visibility %.2f ms, gather %.2f ms,\nview %.2f ms", t.times.visibility_ms, t.times.gather_ms,
                 t.times.view_ms);
-    ImGui::Text("%u of %u views summed, pixels 1/%u", t.samples, s.viewing.most_samples, t.divisor);
+    ImGui::Text("%u of %u views summed, pixels 1/%u", t.samples, s.viewing.most_samples, t.times.divisor);
     ImGui::Text("%.0f MiB on the device", double(t.device_bytes) / 1048576);
 }
 

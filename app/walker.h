@@ -23,7 +23,7 @@ struct Walker {
     float yaw = 0;    // 0 looks along -Z, positive to the left
     float pitch = 0;  // positive upwards
     bool flying = false;
-    float height = 1.65f;  // of the eye above the feet; follows the floor smoothly
+    float height = 1.65f;   // of the eye above the feet; follows the floor smoothly
     float fall_speed = 0;   // m/s, downwards
     bool settling = false;  // the height is on its way to that of the body
 };

@@ -18,7 +18,8 @@
 namespace lw {
 namespace {
 
-constexpr double idle_seconds = 0.1;  // between frames when nothing changes
+constexpr double idle_seconds = 0.1;             // between frames when nothing changes
+constexpr double sharpens_after_seconds = 0.25;  // a pause between two steps is still motion
 constexpr double minimised_seconds = 0.2;
 
 using SharedMap = std::shared_ptr<const PhotonMap>;
@@ -105,6 +106,7 @@ class Show {
     void show(OpenFrame open, const std::optional<ProgressBoard::State>& baking, double now) {
         if (generation_ != presenter_.generation()) overlay_.attach(presenter_.swapchain());
         generation_ = presenter_.generation();
+        if (stage_) follow_picture(open.slot);
         draw_panels(baking, now);
         const Buffer* picture = nullptr;
         if (stage_) {
@@ -117,19 +119,25 @@ class Show {
         if (keep) save_screenshot();
     }
 
-    void record_stage(OpenFrame& open) {
+    /// What the frame before the last tells: times, exposure, range.
+    void follow_picture(uint slot) {
         stage_->resize(presenter_.swapchain().size());
-        session_.statistics.times = stage_->times(open.slot);
+        session_.statistics.times = stage_->times(slot);
         session_.statistics.device_bytes = stage_->bytes();
-        adapt_to(session_.viewing, stage_->glance(open.slot), seconds_);
+        session_.statistics.samples = stage_->samples();
+        adapt_to(session_.viewing, stage_->glance(slot, session_.viewing.view), seconds_);
+    }
+
+    void record_stage(OpenFrame& open) {
         const uint divisor = divisor_.next(session_.viewing.divisor, session_.statistics, stage_->samples() > 1);
-        stage_->record(open.commands, shot_of(session_, divisor), look_of(session_, presenter_.swapchain().is_bgr()),
-                       open.slot, [&](vk::CommandBuffer& commands) {
+        Shot shot = shot_of(session_, divisor);
+        if (!stage_->shows(shot, session_.viewing.view)) changed_ = last_;
+        shot.sharpens = last_ - changed_ > sharpens_after_seconds;
+        stage_->record(open.commands, shot, look_of(session_, presenter_.swapchain().is_bgr()), open.slot,
+                       [&](vk::CommandBuffer& commands) {
                            presenter_.flush(open);
                            commands = open.commands;
                        });
-        session_.statistics.samples = stage_->samples();
-        session_.statistics.divisor = divisor;
     }
 
     void save_screenshot() {
@@ -151,6 +159,7 @@ class Show {
     Overlay overlay_;
     std::unique_ptr<Stage> stage_;
     uint32_t generation_ = 0;
+    double changed_ = 0;  // when the picture last began anew
     double last_ = Window::now(), shown_ = last_;
     float seconds_ = 0;
     Divisor divisor_;

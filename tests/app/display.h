@@ -65,12 +65,14 @@ inline void xdotool(const std::string& words) {
     EXPECT_EQ(std::system(("timeout 20 xdotool " + words + " >/dev/null 2>&1").c_str()), 0) << "xdotool " << words;
 }
 
-/// lumenwalk at work in a window that has the keyboard; a scene of data/ is copied into its folder first.
+/// lumenwalk at work in a window that has the keyboard; a scene of data/ is copied into its folder first,
+/// and text for its bookmarks.
 class WalkingWindow {
   public:
-    WalkingWindow(const std::string& scene, const std::vector<std::string>& more) {
+    WalkingWindow(const std::string& scene, const std::vector<std::string>& more, const std::string& bookmarks = "") {
         std::filesystem::copy_file(LUMENWALK_SOURCE_DIR "/data/" + scene, folder_ / scene);
         stem_ = std::filesystem::path(scene).stem().string();
+        if (!bookmarks.empty()) write_text(folder_ / (stem_ + ".bookmarks.json"), bookmarks);
         std::vector<std::string> words{folder_ / scene, "--size", "320x240", "--validation", "--device", "llvmpipe"};
         words.insert(words.end(), more.begin(), more.end());
         process_ = std::make_unique<Process>("", words);

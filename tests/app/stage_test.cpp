@@ -203,7 +203,7 @@ TEST(Stage, InspectsWhatTheSmoothEstimateStandsOn) {
     const auto glance_of = [&](uint view) {
         room.frame({{view}, 5});
         double sum = 0, count = 0;
-        for (const Glance& g : room.stage.glance(0))
+        for (const Glance& g : room.stage.glance(0, view))
             if (g.seen > 0 && g.illuminance > 1) sum += double(g.value), count += 1;
         return sum / count;
     };

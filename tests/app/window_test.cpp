@@ -135,8 +135,13 @@ TEST(Window, GoesThroughAllViewsAndTogglesWithoutValidationMessages) {
 TEST(Window, GoesOnWithAMapThatCannotBeSavedAndRefusesToOverwriteAMalformedFile) {
     SKIP_WITHOUT_DISPLAY();
     const Display display;
-    WalkingWindow window("cube.gltf", {"/proc/cube.pmap", "--photons", "5000"});
-    EXPECT_TRUE(window.waits_for("/proc/cube.pmap: cannot be created; the map is used, but not kept"));
+    const std::string malformed = "{\"bookmarks\": [3]}";
+    WalkingWindow window("cube.gltf", {"/proc/cube.pmap", "--photons", "5000"}, malformed);
+    EXPECT_TRUE(window.waits_for("/proc/cube.pmap: "));
+    EXPECT_TRUE(window.waits_for("; the map is used, but not kept"));
+    window.key("b");
+    EXPECT_TRUE(window.waits_for("cube.bookmarks.json: bookmarks: every entry must be an object; put it right"));
+    EXPECT_EQ(read_text(window.folder() / "cube.bookmarks.json"), malformed);
     const Image picture = read_exr(window.screenshot() + ".exr");
     EXPECT_GT(mean_of(picture, "illuminance"), 0);
     expect_clean_end(window.close());
