@@ -37,7 +37,8 @@ vec2 range_of(std::vector<float> values, uint view, bool logarithmic) {
     std::sort(values.begin(), values.end());
     const auto percentile = [&](size_t p) { return values[std::min(values.size() - 1, values.size() * p / 100)]; };
     float top = percentile(98);
-    if (!is_signed_view(view) && !logarithmic && percentile(50) > 0) top = std::min(top, 6 * percentile(50));
+    const float ordinary = percentile(is_signed_view(view) ? 90 : 50);
+    if (ordinary > 0 && !(logarithmic && !is_signed_view(view))) top = std::min(top, 3.5f * ordinary);
     const float high = std::max(rounded_up(top), 1e-3f);
     if (is_signed_view(view)) return {-high, high};
     return {logarithmic ? std::max(rounded_down(percentile(2)), 1e-4f * high) : 0.0f, high};

@@ -8,8 +8,8 @@ namespace lw {
 void adapt_to(Viewing& viewing, const std::vector<Glance>& glance, float seconds);
 
 /// Ends of the false colours that show these values: the 2nd to the 98th percentile, rounded to 1, 2 or 5 times a power
-/// of ten; a linear range no further than six times the median, so that a patch of sun burns out and the room does not
-/// drown; even around 0 for signed views.
+/// of ten; a linear range no further than 3.5 times the median (signed: 90th percentile), so that a patch of sun burns
+/// out and the room does not drown; even around 0 for signed views.
 vec2 range_of(std::vector<float> values, uint view, bool logarithmic);
 
 /// Chooses by how much the picture's sides are divided while moving, so that a frame takes 66 ms or less: coarser at

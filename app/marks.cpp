@@ -116,7 +116,7 @@ void draw_legend(const Session& s) {
                       IM_COL32(0, 0, 0, 255));
     for (int i = 0; i <= ticks; ++i) {
         const float t = float(i) / ticks;
-        std::string text = format("%.3g", double(value_in_range(t, v.low, v.high, logarithmic)));
+        std::string text = format("%.4g", double(value_in_range(t, v.low, v.high, logarithmic)));
         if (i == ticks) text += std::string(" ") + unit_of_view(v.view);
         const float middle = ImGui::CalcTextSize(text.c_str()).x / 2, x = left + width * t;
         list->AddText(ImVec2(std::clamp(x - middle, left - 8, left + width + 8 - 2 * middle), top + 18),

@@ -104,9 +104,9 @@ void give_glance(uvec2 xy, vec2 at, bool right_side) {
     uvec2 cell = xy * cells / push.screen;
     if (xy != (2u * cell + 1u) * push.screen / (2u * cells)) return;
     Glance g;
-    vec4 a = light_at_screen(at, 0u);
-    g.luminance = luminance(a.xyz);
-    g.illuminance = a.w;
+    vec4 shown = light_at_screen(at, right_side ? 1u : 0u);
+    g.luminance = luminance(shown.xyz);
+    g.illuminance = shown.w;
     g.value = value_at(at, right_side);
     g.seen = depth_at(at) > 0.0f ? 1.0f : 0.0f;
     glances[cell.y * glance_columns + cell.x] = g;

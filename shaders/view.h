@@ -42,8 +42,8 @@ LW_CONST uint glance_columns = 64u;
 LW_CONST uint glance_rows = 36u;
 
 struct Glance {
-    float luminance;    // cd/m2 of A
-    float illuminance;  // lx of A
+    float luminance;    // cd/m2 of A, right of the split of B
+    float illuminance;  // lx, likewise
     float value;        // what the view shows in false colours
     float seen;         // 0: no surface
 };

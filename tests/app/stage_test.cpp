@@ -225,6 +225,9 @@ TEST(Adapt, RangesAreRoundAndSignedOnesEven) {
     EXPECT_EQ(range_of(values, view_illuminance, true), vec2(5, 500));
     EXPECT_EQ(range_of({-3, 1, 2, -17}, view_difference, false), vec2(-20, 20));
     EXPECT_EQ(range_of({}, view_illuminance, false), vec2(0, 1));
+    std::vector<float> sunlit(100, 100.0f);
+    for (int i = 0; i < 10; ++i) sunlit[size_t(i)] = 9000;
+    EXPECT_EQ(range_of(sunlit, view_illuminance, false), vec2(0, 500)) << "a patch of sun must not drown the room";
 }
 
 TEST(Adapt, DividesThePictureOnlyAsMuchAsItsTimeAsksAndGetsFinerOnlyWhenStill) {
