@@ -70,6 +70,8 @@ LW_CONST uint constant_has_transmission_textures = 21u;
 LW_CONST uint constant_has_mirrors = 22u;
 LW_CONST uint constant_count = 23u;
 
+/// Triangles drawn as one instance. Few, because a rasterizer on the CPU walks all vertices of an instance again and again.
+LW_CONST uint cluster_triangles = 64u;
 LW_CONST uint no_triangle = 0xffffffffu;
 
 /// What the user can dim and tint: photons of the light count `weight` (intensity x factor), its own glow `factor`.

@@ -1,4 +1,4 @@
-// Pulls the corners of triangle gl_VertexIndex / 3 and projects them, relative to the camera for precision.
+// Pulls the corners of a cluster's triangles, an instance each, and projects them, relative to the camera for precision.
 // Depth is reversed with the far plane at infinity: near / distance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -10,7 +10,7 @@ layout(location = 0) out vec2 barycentrics;
 layout(location = 1) flat out uint triangle;
 
 void main() {
-    triangle = uint(gl_VertexIndex) / 3u;
+    triangle = min(uint(gl_InstanceIndex) * cluster_triangles + uint(gl_VertexIndex) / 3u, frame.triangle_limit - 1u);
     uint corner = uint(gl_VertexIndex) % 3u;
     barycentrics = vec2(corner == 1u ? 1.0f : 0.0f, corner == 2u ? 1.0f : 0.0f);
     vec3 offset = positions[triangles[triangle][corner]] - frame.camera_position;

@@ -72,19 +72,20 @@ void check_device(const Device& device, const Scene& scene, const PhotonMap& map
                     mebibytes(device.memory_size()) + "; bake fewer photons");
 }
 
-std::vector<Resident::ObjectRange> find_object_ranges(const Scene& scene) {
-    std::vector<Resident::ObjectRange> ranges;
-    for (uint t = 0; t < scene.triangles.size(); ++t) {
-        if (t == 0 || scene.triangle_objects[t] != scene.triangle_objects[t - 1])
-            ranges.push_back({vec3(1e30f), vec3(-1e30f), t, t});
-        Resident::ObjectRange& range = ranges.back();
+std::vector<Resident::Cluster> find_clusters(const Scene& scene) {
+    const size_t count = (scene.triangles.size() + cluster_triangles - 1) / cluster_triangles;
+    std::vector<Resident::Cluster> clusters(count, {vec3(1e30f), vec3(-1e30f)});
+    for (size_t t = 0; t < scene.triangles.size(); ++t) {
+        Resident::Cluster& cluster = clusters[t / cluster_triangles];
+        const Material& material = scene.material_of(uint(t));
+        cluster.see_through |=
+            (material.flags & (material_alpha_mask | material_alpha_blend)) != 0 || material.transmission > 0;
         for (int c = 0; c < 3; ++c) {
             const vec3 p = scene.positions[scene.triangles[t][c]];
-            range.low = min(range.low, p), range.high = max(range.high, p);
+            cluster.low = min(cluster.low, p), cluster.high = max(cluster.high, p);
         }
-        range.end_triangle = t + 1;
     }
-    return ranges;
+    return clusters;
 }
 
 }  // namespace
@@ -95,7 +96,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
       map_(&map),
       buffer_range_(settings.buffer_range ? settings.buffer_range : device.limits().maxStorageBufferRange),
       triangle_count_(uint(scene.triangles.size())),
-      object_ranges_(find_object_ranges(scene)),
+      clusters_(find_clusters(scene)),
       max_radius_(map.settings.radius),
       inverse_flux_scale_(1.0f / map.flux_scale),
       ray_epsilon_(scene.ray_epsilon()),

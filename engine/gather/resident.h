@@ -36,12 +36,12 @@ class Resident {
     /// Specialization constants of the scene; gather_mode and heap_size are left to the pass.
     const ShaderConstants& constants() const { return constants_; }
     uint triangle_count() const { return triangle_count_; }
-    /// The triangles of each object with their bounds, in the order of the triangles.
-    struct ObjectRange {
-        vec3 low, high;
-        uint first_triangle, end_triangle;
+    /// Each cluster_triangles triangles, in their order.
+    struct Cluster {
+        vec3 low, high;            // bounds
+        bool see_through = false;  // some of them are cut out, blended or transmissive
     };
-    const std::vector<ObjectRange>& object_ranges() const { return object_ranges_; }
+    const std::vector<Cluster>& clusters() const { return clusters_; }
     float max_radius() const { return max_radius_; }    // m
     float ray_epsilon() const { return ray_epsilon_; }  // m
     float scene_size() const { return scene_size_; }    // m
@@ -65,7 +65,7 @@ class Resident {
     uint64_t buffer_range_;
     ShaderConstants constants_{};
     uint triangle_count_;
-    std::vector<ObjectRange> object_ranges_;
+    std::vector<Cluster> clusters_;
     float max_radius_;
     float inverse_flux_scale_;
     float ray_epsilon_;

@@ -14,7 +14,7 @@ constexpr auto both_stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageF
 constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
 /// True when the whole box is outside one plane of the view: behind the near plane, or beyond a side.
-bool is_outside(const Resident::ObjectRange& box, const Frame& frame) {
+bool is_outside(const Resident::Cluster& box, const Frame& frame) {
     const vec3 centre = 0.5f * (box.low + box.high) - frame.camera_position, half = 0.5f * (box.high - box.low);
     const auto beyond = [&](vec3 normal, float offset) {
         return dot(normal, centre) + dot(abs(normal), half) < offset;
@@ -26,18 +26,18 @@ bool is_outside(const Resident::ObjectRange& box, const Frame& frame) {
            beyond(ahead * slope.y + frame.camera_up, 0);
 }
 
-/// Ranges [first, end) of triangles of objects that may be in view, neighbours joined.
-std::vector<std::pair<uint, uint>> visible_triangles(const std::vector<Resident::ObjectRange>& objects,
-                                                     const Frame& frame) {
-    std::vector<std::pair<uint, uint>> ranges;
-    for (const Resident::ObjectRange& object : objects) {
-        if (is_outside(object, frame)) continue;
-        if (!ranges.empty() && ranges.back().second == object.first_triangle)
-            ranges.back().second = object.end_triangle;
+/// Runs [first, end) of clusters of one kind that may be in view.
+std::vector<std::pair<uint, uint>> visible_clusters(const std::vector<Resident::Cluster>& clusters, bool see_through,
+                                                    const Frame& frame) {
+    std::vector<std::pair<uint, uint>> runs;
+    for (uint c = 0; c < clusters.size(); ++c) {
+        if (clusters[c].see_through != see_through || is_outside(clusters[c], frame)) continue;
+        if (!runs.empty() && runs.back().second == c)
+            runs.back().second = c + 1;
         else
-            ranges.emplace_back(object.first_triangle, object.end_triangle);
+            runs.emplace_back(c, c + 1);
     }
-    return ranges;
+    return runs;
 }
 
 }  // namespace
@@ -51,8 +51,12 @@ VisibilityPass::VisibilityPass(const Device& device, const Resident& resident, v
       depth_(device, size, vk::Format::eD32Sfloat, vk::ImageUsageFlagBits::eDepthStencilAttachment) {
     const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout()};
     layout_ = make_layout(device, sets, both_stages, sizeof(Frame));
-    pipeline_ = make_raster_pipeline(device, *layout_, {visibility_vert, visibility_frag}, resident.constants(),
-                                     visible_.format(), depth_.format());
+    for (const bool see_through : {false, true}) {
+        ShaderConstants constants = resident.constants();
+        if (!see_through) constants[constant_has_alpha] = constants[constant_has_transmission] = 0;
+        pipelines_[see_through] = make_raster_pipeline(device, *layout_, {visibility_vert, visibility_frag}, constants,
+                                                       visible_.format(), depth_.format());
+    }
 }
 
 void VisibilityPass::record(vk::CommandBuffer commands, const Frame& frame) const {
@@ -75,11 +79,13 @@ void VisibilityPass::draw(vk::CommandBuffer commands, const Frame& frame) const 
     commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, size}, 1, 0, color, &depth));
     commands.setViewport(0, vk::Viewport(0, 0, float(size.width), float(size.height), 0, 1));
     commands.setScissor(0, vk::Rect2D({0, 0}, size));
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, resident_->descriptors().handle(), {});
     commands.pushConstants<Frame>(*layout_, both_stages, 0, frame);
-    for (const auto& [first, end] : visible_triangles(resident_->object_ranges(), frame))
-        commands.draw(3 * (end - first), 1, 3 * first, 0);
+    for (const bool see_through : {false, true}) {
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_[see_through]);
+        for (const auto& [first, end] : visible_clusters(resident_->clusters(), see_through, frame))
+            commands.draw(3 * cluster_triangles, end - first, 0, first);
+    }
     commands.endRendering();
 }
 

@@ -1,5 +1,7 @@
 // Rasterises the scene: per pixel the triangle that is seen and where on it. Cut-outs and glass let the view through.
 #pragma once
+#include <array>
+
 #include "gather/resident.h"
 #include "gpu/target.h"
 
@@ -31,7 +33,7 @@ class VisibilityPass {
     Target visible_;
     Target depth_;
     vk::UniquePipelineLayout layout_;
-    vk::UniquePipeline pipeline_;
+    std::array<vk::UniquePipeline, 2> pipelines_;  // of opaque clusters, and of those that discard pixels
 };
 
 }  // namespace lw
