@@ -36,6 +36,16 @@ TEST(Play, MakesThePicturesOfTheScreenshotProgramAndATableOfTimes) {
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4) << table;
 }
 
+TEST(Play, HelpNamesUnitsAndDefaults) {
+    const Outcome outcome = run("", {"--help"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    for (const char* words :
+         {"1000000", "1280x720", "960x540", "EV100", "milliseconds", "beside the scene", "--ambiance"})
+        EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in\n" << outcome.out;
+    EXPECT_EQ(run("", {}).exit_code, 2);
+    EXPECT_EQ(run("", {cornell(), "--size", "wide"}).exit_code, 2);
+}
+
 TEST(Play, RefusesMalformedPathsInOneLine) {
     const TempFolder folder;
     for (const char* text :
