@@ -124,6 +124,7 @@ Light light_at(uint i) { return lights[i]; }
 #include "profile.glsl"
 #include "direct.glsl"
 #include "shade.glsl"
+#include "inspect.glsl"
 
 void list_pixel(uint pixel, uint word) {
     uint place = atomicAdd(ray_lists[word].count, 1u);
@@ -142,6 +143,14 @@ uint pixel_to_shade() {
     return xy.x < frame.width && xy.y < frame.height ? xy.y * frame.width + xy.x : pixels;
 }
 
+/// What the estimate of a pixel stands on; the photons' dots are two pixels wide.
+vec4 inspect_pixel(Seen seen, uint seed) {
+    float pixel_metres =
+        length(frame.camera_position - seen.surface.position) * 2.0f / (frame.projection.y * float(frame.height));
+    Inspected i = inspect(seen, pixel_metres, seed);
+    return vec4(i.bandwidth, i.photons, i.relative_error, i.dot_lamp);
+}
+
 void main() {
     uint pixel = pixel_to_shade();
     if (pixel >= frame.width * frame.height) return;
@@ -149,8 +158,13 @@ void main() {
     Gathered light = no_light();
     if (visible.x < frame.triangle_limit) {
         Seen seen = see(visible.x, uintBitsToFloat(visible.yz), frame.camera_position);
+        uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
+        if (gather_mode == gather_mode_inspect) {
+            radiance_illuminance[pixel] = inspect_pixel(seen, seed);
+            return;
+        }
         if (stage == stage_rays) {
-            add_rays(seen, frame.ray_word, hash_uint(pixel + hash_uint(frame.sample_index)), light);
+            add_rays(seen, frame.ray_word, seed, light);
         } else {
             light = without_rays(seen);
             for (uint word = 0u; (has_direct || has_mirrors) && word < ray_words(light_count); ++word)

@@ -82,6 +82,7 @@ LW_CONST uint most_mirrors = 4u;
 LW_CONST uint gather_mode_exact = 0u;   // the k nearest photons, with a heap: the paper's way
 LW_CONST uint gather_mode_smooth = 1u;  // bandwidth from cell counts, one pass with a smooth kernel
 LW_CONST uint gather_mode_cached = 2u;  // irradiance of the lattice nodes
+LW_CONST uint gather_mode_inspect = 3u;  // no light: what the smooth estimate stands on (shaders/inspect.glsl)
 
 /// Photons cannot resolve a narrower lobe: below this glTF roughness the highlight is widened, which keeps its energy
 /// and trades its sharpness for freedom from blotches.

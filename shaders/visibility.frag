@@ -6,11 +6,13 @@
 #include "resident.glsl"
 #include "surface.glsl"
 
+layout(push_constant, scalar) uniform Push { Frame frame; };
 layout(location = 0) in vec2 barycentrics;
 layout(location = 1) flat in uint triangle;
-layout(location = 0) out uvec4 visible;  // triangle, barycentrics as float bits, 0
+layout(location = 0) out uvec4 visible;  // triangle, barycentrics and depth (m along -Z) as float bits
 
 void main() {
     if ((has_alpha || has_transmission) && is_see_through(triangle, barycentrics)) discard;
-    visible = uvec4(triangle, floatBitsToUint(barycentrics.x), floatBitsToUint(barycentrics.y), 0u);
+    visible = uvec4(triangle, floatBitsToUint(barycentrics.x), floatBitsToUint(barycentrics.y),
+                    floatBitsToUint(frame.near / gl_FragCoord.z));
 }

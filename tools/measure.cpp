@@ -4,11 +4,11 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "file/map_file.h"
-#include "base/interrupt.h"
 #include "base/replaced_file.h"
+#include "file/map_file.h"
 #include "maps/build.h"
 #include "measure/grid.h"
 #include "measure/report.h"
@@ -56,10 +56,11 @@ std::vector<lw::SensorSet> sets_of(const Options& o, const lw::Scene& scene) {
     return sets;
 }
 
-std::vector<lw::Ambiance> ambiances_of(const Options& o, const lw::Scene& scene) {
-    std::vector<lw::Ambiance> ambiances;
+std::vector<lw::PowerSetting> ambiances_of(const Options& o, const lw::Scene& scene) {
+    std::vector<lw::PowerSetting> ambiances;
     if (o.ambiances.empty() || !o.powers.empty())
-        ambiances.push_back({o.powers.empty() ? "all" : "powers", lw::parse_powers(scene, o.powers)});
+        ambiances.push_back(
+            {o.powers.empty() ? "all" : "powers", lw::luminous_factors(scene, lw::parse_powers(scene, o.powers))});
     for (const std::string& text : o.ambiances) ambiances.push_back(lw::parse_ambiance(text, scene));
     return ambiances;
 }
@@ -78,7 +79,7 @@ void measure(Options& o) {
     const lw::Scene scene = lw::with_photometry(lw::load_gltf(o.scene), o.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::vector<lw::SensorSet> sets = sets_of(o, scene);
-    std::vector<lw::Ambiance> ambiances = ambiances_of(o, scene);
+    std::vector<lw::PowerSetting> ambiances = ambiances_of(o, scene);
     for (const std::string& path : {o.csv, o.fields_csv, o.report})
         if (!path.empty()) lw::check_can_create(path);
     for (const std::string& camera : o.cameras) lw::find_camera(scene, camera);
@@ -122,7 +123,8 @@ void add_options(CLI::App& app, Options& o) {
            "--surface", o.surfaces,
            "\"OBJECT[: [facing=+y] [count=64] [task=TASK]]\": points spread evenly over an object's front faces")
         ->allow_extra_args(false);
-    app.add_option("--ambiance", o.ambiances, "\"NAME: LAMP=FACTOR, LAMP=FACTOR ...\"; may be repeated")
+    app.add_option("--ambiance", o.ambiances,
+                   "\"NAME\" of SCENE.ambiances.json, or \"NAME: LAMP=FACTOR, LAMP=FACTOR ...\"; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
         ->allow_extra_args(false);

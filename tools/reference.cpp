@@ -10,6 +10,7 @@
 #include "image/exr.h"
 #include "image/light_check.h"
 #include "number_option.h"
+#include "scene/ambiance.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "scene/profile.h"
@@ -18,7 +19,7 @@
 namespace {
 
 struct Options {
-    std::string scene, output, camera, size = "960x540";
+    std::string scene, output, camera, ambiance, size = "960x540";
     std::vector<std::string> powers, photometry;
     unsigned threads = 0;
     lw::ReferenceSettings settings;
@@ -50,7 +51,8 @@ void render(Options& options) {
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     lw::check_can_create(options.output, {options.scene});
     const lw::RayCaster caster(scene);
-    const std::vector<lw::vec3> weights = lw::light_weights(scene, lw::parse_powers(scene, options.powers));
+    const std::vector<lw::vec3> weights =
+        lw::light_weights(scene, lw::chosen_factors(scene, options.ambiance, options.powers));
     const lw::Reference reference =
         lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
     lw::check_is_light(reference.image);
@@ -95,6 +97,8 @@ int main(int argc, char** argv) {
                    "metres over which the first sample blurs such light, later ones less (0: 0.4 % of the scene)")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1e6));
+    app.add_option("--ambiance", options.ambiance,
+                   "powers of this name in SCENE.ambiances.json; --power multiplies them");
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
     app.add_option("--ies", options.photometry,
                    "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "

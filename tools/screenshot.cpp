@@ -13,6 +13,7 @@
 #include "image/light_check.h"
 #include "image/png.h"
 #include "number_option.h"
+#include "scene/ambiance.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "scene/profile.h"
@@ -21,7 +22,7 @@
 namespace {
 
 struct Options {
-    std::string scene, map, output, camera, size, gather = "cached", device;
+    std::string scene, map, output, camera, size, gather = "cached", device, ambiance;
     std::vector<std::string> powers, photometry;
     unsigned neighbours = lw::GatherSettings{}.neighbours, samples = 1, frames = 3,
              shadow_rays = lw::GatherSettings{}.shadow_rays;
@@ -43,6 +44,7 @@ void add_options(CLI::App& app, Options& o) {
         ->allow_extra_args(false);
     app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
         ->allow_extra_args(false);
+    app.add_option("--ambiance", o.ambiance, "powers of this name in SCENE.ambiances.json; --power multiplies them");
     app.add_option("--neighbours", o.neighbours, "photons per estimate")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
@@ -128,7 +130,7 @@ void take_screenshot(const Options& o) {
     const lw::Scene scene = lw::with_photometry(lw::load_gltf(o.scene), o.photometry);
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
     const lw::Camera& camera = lw::find_camera(scene, o.camera);
-    const std::vector<float> factors = lw::parse_powers(scene, o.powers);
+    const std::vector<lw::vec3> factors = lw::chosen_factors(scene, o.ambiance, o.powers);
     const std::filesystem::path map_path = o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map);
     const lw::PhotonMap map = lw::load_photon_map(map_path, scene);
     lw::check_can_create(o.output, {o.scene, map_path});

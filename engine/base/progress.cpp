@@ -4,10 +4,32 @@
 
 #include <cstdio>
 
+#include "base/error.h"
+
 namespace lw {
+namespace {
+
+thread_local ProgressBoard* board_of_thread = nullptr;
+
+}  // namespace
+
+ProgressBoard::State ProgressBoard::state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+}
+
+void ProgressBoard::set(const std::string& what, double fraction) {
+    const std::lock_guard lock(mutex_);
+    state_ = {what, fraction < 1 ? fraction : 1.0};
+}
+
+ProgressScope::ProgressScope(ProgressBoard& board) { board_of_thread = &board; }
+
+ProgressScope::~ProgressScope() { board_of_thread = nullptr; }
 
 Progress::Progress(std::string what, uint64_t total)
     : what_(std::move(what)),
+      board_(board_of_thread),
       total_(total ? total : 1),
       terminal_(isatty(STDERR_FILENO) != 0),
       start_(std::chrono::steady_clock::now()),
@@ -19,6 +41,7 @@ Progress::~Progress() {
 }
 
 void Progress::step(uint64_t units) {
+    if (board_ && board_->is_cancelled()) throw Error("cancelled");
     const uint64_t done = done_ += units;
     std::unique_lock lock(drawing_, std::try_to_lock);
     if (!lock) return;
@@ -29,6 +52,10 @@ void Progress::step(uint64_t units) {
 }
 
 void Progress::draw(uint64_t done, bool last) {
+    if (board_) {
+        board_->set(what_, last ? 1.0 : double(done) / double(total_));
+        return;
+    }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double rate = double(done) / (seconds > 1e-6 ? seconds : 1e-6);
     const double left = done < total_ ? double(total_ - done) / (rate > 0 ? rate : 1) : 0;

@@ -9,7 +9,35 @@
 
 namespace lw {
 
-/// Thread-safe counter of `total` units of work named `what`; prints to stderr.
+/// Progress to be shown elsewhere than on a terminal, and the wish to stop. Thread-safe.
+class ProgressBoard {
+  public:
+    struct State {
+        std::string what;
+        double fraction = 0;  // 0 to 1
+    };
+    State state() const;
+    void set(const std::string& what, double fraction);
+    /// The work whose progress comes here throws Error at its next step.
+    void cancel() { cancelled_ = true; }
+    bool is_cancelled() const { return cancelled_; }
+
+  private:
+    mutable std::mutex mutex_;
+    State state_;
+    std::atomic<bool> cancelled_{false};
+};
+
+/// While it lives, every Progress made on this thread goes to the board and prints nothing.
+class ProgressScope {
+  public:
+    explicit ProgressScope(ProgressBoard& board);
+    ~ProgressScope();
+    ProgressScope(const ProgressScope&) = delete;
+    ProgressScope& operator=(const ProgressScope&) = delete;
+};
+
+/// Thread-safe counter of `total` units of work named `what`; prints to stderr, or tells the board of its thread.
 class Progress {
   public:
     Progress(std::string what, uint64_t total);
@@ -21,6 +49,7 @@ class Progress {
     void draw(uint64_t done, bool last);
 
     std::string what_;
+    ProgressBoard* board_;
     uint64_t total_;
     bool terminal_;
     std::chrono::steady_clock::time_point start_;

@@ -19,6 +19,18 @@ ShaderConstants with_mode(ShaderConstants constants, GatherSettings settings) {
 
 }  // namespace
 
+Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings) {
+    frame.neighbours = std::max(1u, settings.neighbours);
+    frame.max_radius = resident.max_radius();
+    frame.inverse_flux_scale = resident.inverse_flux_scale();
+    frame.ray_epsilon = resident.ray_epsilon();
+    frame.scene_size = resident.scene_size();
+    frame.shadow_rays = settings.shadow_rays;
+    frame.inverse_irradiance_scale = resident.inverse_irradiance_scale();
+    frame.triangle_limit = resident.triangle_count();
+    return frame;
+}
+
 GatherPass::GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings)
     : resident_(&resident), picture_(&picture) {
     if (settings.mode == 0 && settings.neighbours > PhotonEstimator::heap_size)
@@ -26,22 +38,23 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
     const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), picture.descriptors().layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(Frame));
     ShaderConstants constants = with_mode(resident.constants(), settings);
-    const bool has_rays = constants[constant_has_direct] || constants[constant_has_mirrors];
+    const bool has_rays =
+        settings.mode != gather_mode_inspect && (constants[constant_has_direct] || constants[constant_has_mirrors]);
     for (uint stage = stage_photons; stage <= (has_rays ? stage_rays : stage_photons); ++stage) {
         constants[constant_stage] = stage;
         stages_.push_back(make_compute_pipeline(device, *layout_, gather_comp, constants));
     }
 }
 
-void GatherPass::record(vk::CommandBuffer commands, const Frame& frame) const {
+void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture) const {
     using Stage = vk::PipelineStageFlagBits2;
-    const vk::DescriptorSet sets[] = {resident_->descriptors().handle(), picture_->descriptors().handle()};
+    const vk::DescriptorSet sets[] = {resident_->descriptors().handle(), picture.descriptors().handle()};
     const uint words = ray_words(uint(resident_->scene().lights.size()));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
     commands.pushConstants<Frame>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, frame);
     if (stages_.size() > 1) {
         const std::vector<RayPixels> empty(words, {0, 1, 1, 0});
-        commands.updateBuffer<RayPixels>(picture_->ray_lists().handle(), 0, empty);
+        commands.updateBuffer<RayPixels>(picture.ray_lists().handle(), 0, empty);
         stage_barrier(commands, Stage::eTransfer, Stage::eComputeShader);
     }
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *stages_[stage_photons]);
@@ -53,7 +66,7 @@ void GatherPass::record(vk::CommandBuffer commands, const Frame& frame) const {
         stage_barrier(commands, Stage::eComputeShader, Stage::eComputeShader | Stage::eDrawIndirect);
         commands.pushConstants(*layout_, vk::ShaderStageFlagBits::eCompute, offsetof(Frame, ray_word), sizeof word,
                                &word);
-        commands.dispatchIndirect(picture_->ray_lists().handle(), word * sizeof(RayPixels));
+        commands.dispatchIndirect(picture.ray_lists().handle(), word * sizeof(RayPixels));
     }
 }
 

@@ -6,12 +6,17 @@
 
 namespace lw {
 
+/// The push constants of a view with what its passes need of the scene and the settings.
+Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings);
+
 class GatherPass {
   public:
     /// Throws Error when the exact mode is asked for more neighbours than PhotonEstimator::heap_size.
     GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings);
     /// Reads the visibility texture, writes the picture; for compute shaders and copies after a barrier.
-    void record(vk::CommandBuffer commands, const Frame& frame) const;
+    void record(vk::CommandBuffer commands, const Frame& frame) const { record(commands, frame, *picture_); }
+    /// The same into another picture of the same visibility texture.
+    void record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture) const;
 
   private:
     const Resident* resident_;

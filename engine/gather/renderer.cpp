@@ -81,7 +81,8 @@ Rendering Renderer::render(const Camera& camera, const RenderSettings& settings)
     for (uint i = 0; i < std::max(1u, settings.frames); ++i) frames.push_back(render_frame(camera, settings));
     Rendering result;
     result.times = median_times(frames);
-    result.image = read_image(camera, visibility_.read_samples());
+    result.image =
+        read_picture(*device_, resident_->scene(), camera, picture_, {width_, height_}, visibility_.read_samples());
     result.exposure_ev = settings.exposure_ev ? *settings.exposure_ev : auto_exposure_ev(result.image);
     std::vector<double> tonemap_ms;
     for (size_t i = 0; i < frames.size(); ++i) tonemap_ms.push_back(render_screen(result.exposure_ev));
@@ -96,15 +97,7 @@ PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& set
     const Timestamps times(*device_, 3);
     PassTimes sum;
     for (uint i = 0; i < samples; ++i) {
-        Frame frame = make_frame(camera, {width_, height_}, i, samples);
-        frame.neighbours = std::max(1u, settings.gather.neighbours);
-        frame.max_radius = resident_->max_radius();
-        frame.inverse_flux_scale = resident_->inverse_flux_scale();
-        frame.ray_epsilon = resident_->ray_epsilon();
-        frame.scene_size = resident_->scene_size();
-        frame.shadow_rays = settings.gather.shadow_rays;
-        frame.inverse_irradiance_scale = resident_->inverse_irradiance_scale();
-        frame.triangle_limit = resident_->triangle_count();
+        const Frame frame = with_gather(make_frame(camera, {width_, height_}, i, samples), *resident_, settings.gather);
         submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
             using Stage = vk::PipelineStageFlagBits2;
             times.reset(commands);
@@ -135,12 +128,13 @@ double Renderer::render_screen(float exposure_ev) const {
     return times.intervals_ms()[0];
 }
 
-Image Renderer::read_image(const Camera& camera, const std::vector<VisibleSample>& visible) const {
-    Image image{int(width_), int(height_), {}};
+Image read_picture(const Device& device, const Scene& scene, const Camera& camera, const Picture& picture,
+                   vk::Extent2D size, const std::vector<VisibleSample>& visible) {
+    Image image{int(size.width), int(size.height), {}};
     const size_t count = image.pixel_count();
-    const auto light = read_back<vec4>(*device_, picture_.radiance(), count);
+    const auto light = read_back<vec4>(device, picture.radiance(), count);
     std::vector<vec4> geometry(count, vec4(0));
-    const SurfaceReader surfaces(resident_->scene());
+    const SurfaceReader surfaces(scene);
     for (size_t i = 0; i < count; ++i)
         if (visible[i].triangle != no_triangle)
             geometry[i] = normal_and_depth(surfaces.surface_at(visible[i].triangle, visible[i].barycentrics), camera);

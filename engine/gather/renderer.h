@@ -45,7 +45,6 @@ class Renderer {
     void choose_gather(GatherSettings settings);
     PassTimes render_frame(const Camera& camera, const RenderSettings& settings) const;
     double render_screen(float exposure_ev) const;
-    Image read_image(const Camera& camera, const std::vector<VisibleSample>& visible) const;
     Rgb8Image read_screen() const;
 
     const Device* device_;
@@ -57,6 +56,10 @@ class Renderer {
     GatherSettings gather_settings_;
     std::unique_ptr<GatherPass> gather_;
 };
+
+/// The channels of Rendering::image of a picture of `size` pixels seen by a camera; waits.
+Image read_picture(const Device& device, const Scene& scene, const Camera& camera, const Picture& picture,
+                   vk::Extent2D size, const std::vector<VisibleSample>& visible);
 
 /// The push constants of sample `index` of `count` of a view; jitter inside the pixel when count > 1.
 Frame make_frame(const Camera& camera, vk::Extent2D size, uint index, uint count);

@@ -69,7 +69,7 @@ void VisibilityPass::record(vk::CommandBuffer commands, const Frame& frame) cons
 }
 
 void VisibilityPass::draw(vk::CommandBuffer commands, const Frame& frame) const {
-    const vk::Extent2D size = visible_.size();
+    const vk::Extent2D size{frame.width, frame.height};
     vk::RenderingAttachmentInfo color(visible_.view(), Layout::eColorAttachmentOptimal);
     color.setLoadOp(vk::AttachmentLoadOp::eClear).setStoreOp(vk::AttachmentStoreOp::eStore);
     color.clearValue.color.setUint32({no_triangle, 0u, 0u, 0u});

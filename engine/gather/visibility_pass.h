@@ -11,14 +11,15 @@ namespace lw {
 struct VisibleSample {
     uint triangle = no_triangle;
     vec2 barycentrics{0};  // weights of the second and third vertex
-    uint unused = 0;
+    float depth = 0;       // m along -Z
 };
 static_assert(sizeof(VisibleSample) == 16);
 
 class VisibilityPass {
   public:
     VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size);
-    /// Afterwards texture() is readable by compute shaders.
+    /// Draws frame.width x frame.height pixels from the top left corner, at most the pass's size. Afterwards texture()
+    /// is readable by compute shaders.
     void record(vk::CommandBuffer commands, const Frame& frame) const;
     const Target& texture() const { return visible_; }
     /// The samples of the last recorded and finished frame, row 0 on top.

@@ -71,8 +71,14 @@ std::optional<uint32_t> queue_family_of(vk::PhysicalDevice device) {
     return std::nullopt;
 }
 
+bool has_swapchain(vk::PhysicalDevice device) {
+    for (const vk::ExtensionProperties& extension : device.enumerateDeviceExtensionProperties())
+        if (std::string(extension.extensionName.data()) == VK_KHR_SWAPCHAIN_EXTENSION_NAME) return true;
+    return false;
+}
+
 /// What the device lacks, or "".
-std::string lack_of(vk::PhysicalDevice device) {
+std::string lack_of(vk::PhysicalDevice device, bool presents = false) {
     const uint32_t version = device.getProperties().apiVersion;
     if (version < VK_API_VERSION_1_3)
         return "Vulkan 1.3, has " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
@@ -84,6 +90,7 @@ std::string lack_of(vk::PhysicalDevice device) {
     if (!chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2) return "feature synchronization2";
     if (!chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4) return "feature maintenance4";
     if (!queue_family_of(device)) return "a queue for graphics and compute with timestamps";
+    if (presents && !has_swapchain(device)) return std::string("extension ") + VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     return "";
 }
 
@@ -94,12 +101,12 @@ std::string list_names(const std::vector<vk::PhysicalDevice>& devices) {
 }
 
 /// The best fit device; of those called `name` when it is not empty.
-vk::PhysicalDevice choose(const std::vector<vk::PhysicalDevice>& devices, const std::string& name) {
+vk::PhysicalDevice choose(const std::vector<vk::PhysicalDevice>& devices, const std::string& name, bool presents) {
     if (devices.empty()) throw Error("Vulkan: no device found (mesa-vulkan-drivers has one that runs on the CPU)");
     std::string unfit;
     for (vk::PhysicalDevice device : devices) {
         if (lower(name_of(device)).find(lower(name)) == std::string::npos) continue;
-        const std::string lack = lack_of(device);
+        const std::string lack = lack_of(device, presents);
         if (lack.empty()) return device;
         unfit += (unfit.empty() ? "" : "; ") + name_of(device) + " lacks " + lack;
     }
@@ -111,11 +118,14 @@ vk::PhysicalDevice choose(const std::vector<vk::PhysicalDevice>& devices, const 
 
 Device::Device(const DeviceSettings& settings) {
     try {
-        create_instance(settings.validation);
-        physical_ = choose(devices_best_first(*instance_), settings.name);
+        const bool presents = !settings.window_extensions.empty();
+        create_instance(settings);
+        physical_ = choose(devices_best_first(*instance_), settings.name, presents);
         name_ = name_of(physical_);
         limits_ = physical_.getProperties().limits;
-        create_device();
+        create_device(presents);
+    } catch (const vk::IncompatibleDriverError&) {
+        throw Error("Vulkan: no driver found (mesa-vulkan-drivers has one that runs on the CPU)");
     } catch (const vk::SystemError& failure) {
         throw Error("Vulkan: cannot be started: " + std::string(failure.what()));
     }
@@ -130,16 +140,18 @@ Device::~Device() {
     destroy(*instance_, messenger_, nullptr);
 }
 
-void Device::create_instance(bool validation) {
+void Device::create_instance(const DeviceSettings& settings) {
     const vk::ApplicationInfo app = application();
-    if (!validation) {
-        instance_ = vk::createInstanceUnique(vk::InstanceCreateInfo({}, &app));
+    std::vector<const char*> extensions;
+    for (const std::string& name : settings.window_extensions) extensions.push_back(name.c_str());
+    if (!settings.validation) {
+        instance_ = vk::createInstanceUnique(vk::InstanceCreateInfo({}, &app, {}, extensions));
         return;
     }
     if (!has_layer(validation_layer))
         throw Error(std::string("Vulkan: ") + validation_layer + " is not installed (vulkan-validationlayers)");
     log_ = std::make_unique<ValidationLog>();
-    const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const vk::ValidationFeatureEnableEXT checks[] = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
     vk::StructureChain<vk::InstanceCreateInfo, vk::ValidationFeaturesEXT, vk::DebugUtilsMessengerCreateInfoEXT> chain(
         vk::InstanceCreateInfo({}, &app, validation_layer, extensions), vk::ValidationFeaturesEXT(checks),
@@ -152,13 +164,15 @@ void Device::create_instance(bool validation) {
         throw Error("Vulkan: the validation layer cannot report");
 }
 
-void Device::create_device() {
+void Device::create_device(bool presents) {
     queue_family_ = *queue_family_of(physical_);
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queue_info({}, queue_family_, 1, &priority);
     vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>
         chain;
     chain.get<vk::DeviceCreateInfo>().setQueueCreateInfos(queue_info);
+    const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    if (presents) chain.get<vk::DeviceCreateInfo>().setPEnabledExtensionNames(swapchain);
     chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2 = true;

@@ -13,6 +13,7 @@ namespace lw {
 struct DeviceSettings {
     std::string name;         // part of the device's name, any case; empty: discrete before integrated before CPU
     bool validation = false;  // Khronos validation layer with synchronization checks
+    std::vector<std::string> window_extensions{};  // of the instance; any: the device must be able to present
 };
 
 /// Errors and warnings of the validation layer, in order; filled from any thread.
@@ -30,6 +31,8 @@ class Device {
     Device& operator=(const Device&) = delete;
 
     vk::Device handle() const { return *device_; }
+    vk::Instance instance() const { return *instance_; }
+    uint32_t queue_family() const { return queue_family_; }
     vk::PhysicalDevice physical() const { return physical_; }
     vk::Queue queue() const { return queue_; }
     vk::CommandPool command_pool() const { return *command_pool_; }
@@ -43,8 +46,8 @@ class Device {
     std::vector<std::string> validation_messages() const;
 
   private:
-    void create_instance(bool validation);
-    void create_device();
+    void create_instance(const DeviceSettings& settings);
+    void create_device(bool presents);
 
     std::unique_ptr<ValidationLog> log_;
     vk::UniqueInstance instance_;

@@ -19,16 +19,6 @@ const std::vector<float>& samples(const Image& image, const char* name) {
 
 bool is_number(const vec3& v) { return !std::isnan(v.x) && !std::isnan(v.y) && !std::isnan(v.z); }
 
-std::vector<float> sorted_positive_luminances(const Image& image) {
-    std::vector<float> result;
-    for (const vec3& rgb : rgb_pixels(image)) {
-        float l = luminance(rgb);
-        if (l > 1e-6f && l <= brightest) result.push_back(l);
-    }
-    std::sort(result.begin(), result.end());
-    return result;
-}
-
 }  // namespace
 
 std::vector<vec3> rgb_pixels(const Image& image) {
@@ -55,7 +45,14 @@ Rgb8Image tonemap(const Image& image, float exposure_ev) {
 }
 
 float auto_exposure_ev(const Image& image) {
-    std::vector<float> luminances = sorted_positive_luminances(image);
+    std::vector<float> luminances;
+    for (const vec3& rgb : rgb_pixels(image)) luminances.push_back(luminance(rgb));
+    return auto_exposure_ev(std::move(luminances));
+}
+
+float auto_exposure_ev(std::vector<float> luminances) {
+    std::erase_if(luminances, [](float l) { return !(l > 1e-6f && l <= brightest); });
+    std::sort(luminances.begin(), luminances.end());
     if (luminances.empty()) return 0.0f;
     size_t first = luminances.size() / 20, last = luminances.size() - first;
     double log_sum = 0;

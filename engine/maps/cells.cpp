@@ -99,7 +99,8 @@ CellLight::CellLight(const Scene& scene, const PhotonMap& map)
     if (!map.has_visible_lamps()) return;
     lamps_.assign(map.coverage.size() * cell_lamp_words(lamp_count_), 0);
     for (uint lamp = 0; lamp < lamp_count_; ++lamp)
-        if (scene.lights[lamp].type != light_mesh && scene.lights[lamp].type != light_profile) punctual_.push_back(lamp);
+        if (scene.lights[lamp].type != light_mesh && scene.lights[lamp].type != light_profile)
+            punctual_.push_back(lamp);
     direct_.assign(punctual_.size(), std::vector<float>(map.coverage.size(), 0));
     const PlaneMaps planes(scene, map);
     parallel_for(map.grids.size(), [&](size_t m) {

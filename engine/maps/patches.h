@@ -30,7 +30,8 @@ struct PatchShape {
 std::vector<PatchShape> shapes_of(const Scene& scene, const Patches& patches);
 
 /// Groups triangle sides whose bounding box is smaller than `patch_size` metres by (object, cell of that size, one of
-/// 54 normal bins), and needles that are longer but narrower than 1/64 of it, by cells of their length; degenerate triangles follow their neighbours' bins with the normal +Y.
+/// 54 normal bins), and needles that are longer but narrower than 1/64 of it, by cells of their length; degenerate
+/// triangles follow their neighbours' bins with the normal +Y.
 Patches group_triangles(const Scene& scene, float patch_size);
 
 }  // namespace lw

@@ -43,7 +43,7 @@ std::string verdict_cells(const MeasuredSet& measured, const Statistics& s) {
            cell("<span class=" + verdict + ">" + verdict + "</span>");
 }
 
-std::string table_of_fields(const Survey& survey, const Scene& scene, const Ambiance& ambiance) {
+std::string table_of_fields(const Survey& survey, const Scene& scene, const PowerSetting& ambiance) {
     std::string text =
         "<table><tr><th>field<th>points<th>E<sub>avg</sub> lx<th>E<sub>min</sub><th>E<sub>max</sub><th>U<sub>0</sub>"
         "<th>U<sub>d</sub><th>doubtful<th>task<th>required<th>result</tr>\n";
@@ -59,7 +59,7 @@ std::string table_of_fields(const Survey& survey, const Scene& scene, const Ambi
 }
 
 /// Mean lux of a field that each lamp brings.
-std::string table_of_lamps(const Survey& survey, const Scene& scene, const Ambiance& ambiance) {
+std::string table_of_lamps(const Survey& survey, const Scene& scene, const PowerSetting& ambiance) {
     std::string text = "<table><tr><th>lamp<th>power";
     for (const MeasuredSet& measured : survey.sets) text += "<th>" + escaped(measured.set.name) + " lx";
     text += "</tr>\n";
@@ -91,14 +91,14 @@ std::string table_of_points(const MeasuredSet& measured, const std::vector<Value
 /// Bounds of the colours of a field: the same in all ambiances.
 std::pair<double, double> range_of(const MeasuredSet& measured, const Scene& scene, const Survey& survey) {
     double low = 1e30, high = 0;
-    for (const Ambiance& ambiance : survey.ambiances)
+    for (const PowerSetting& ambiance : survey.ambiances)
         for (const Value& value : values_of(measured, scene, ambiance, survey.maintenance))
             low = std::min(low, value.lux), high = std::max(high, value.lux);
     high = std::max(high, 1e-6);
     return {std::clamp(low, high * 1e-2, high * 0.8), high};
 }
 
-std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const Ambiance& ambiance) {
+std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const PowerSetting& ambiance) {
     std::string text;
     for (const MeasuredSet& measured : survey.sets) {
         const std::vector<Value> values = values_of(measured, scene, ambiance, survey.maintenance);
@@ -117,7 +117,7 @@ std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster&
     return text;
 }
 
-std::string pictures_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const Ambiance& ambiance,
+std::string pictures_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const PowerSetting& ambiance,
                         const std::vector<std::string>& cameras) {
     std::string text;
     for (const std::string& name : cameras) {
@@ -152,7 +152,7 @@ std::string report_as_html(const Survey& survey, const Scene& scene, const RayCa
         "Numbers in red italics should not be trusted, the CSV says why.</p>\n",
         1e-6 * double(survey.map.stored_photons), double(survey.maintenance));
     for (const std::string& warning : survey.warnings) text += "<p class=warning>" + escaped(warning) + "</p>\n";
-    for (const Ambiance& ambiance : survey.ambiances) {
+    for (const PowerSetting& ambiance : survey.ambiances) {
         text += "<h2>Ambiance " + escaped(ambiance.name) + "</h2>\n" + table_of_fields(survey, scene, ambiance);
         text += fields_of(survey, scene, caster, ambiance);
         text += pictures_of(survey, scene, caster, ambiance, cameras);

@@ -8,6 +8,7 @@
 #include "maps/build.h"
 #include "measure/words.h"
 #include "photons/shoot.h"
+#include "scene/ambiance.h"
 #include "scene/camera.h"
 
 namespace lw {
@@ -29,7 +30,7 @@ struct Errors {
 
 Errors errors_of(const Reading& reading, const Scene& scene, const Survey& survey) {
     Errors worst;
-    for (const Ambiance& ambiance : survey.ambiances) {
+    for (const PowerSetting& ambiance : survey.ambiances) {
         const Value value = value_of(reading, scene, ambiance.factors, survey.maintenance);
         if (value.lux < least_lux || reading.blocked) continue;
         worst.rays = std::max(worst.rays, 1.9 * value.ray_error / value.lux);
@@ -117,18 +118,29 @@ void reach_error(const Scene& scene, const RayCaster& caster, PhotonMap& map, co
 
 }  // namespace
 
-Ambiance parse_ambiance(const std::string& text, const Scene& scene) {
+std::vector<float> luminous_factors(const Scene& scene, const std::vector<vec3>& factors) {
+    const vec3 luminance(0.2126f, 0.7152f, 0.0722f);
+    std::vector<float> result;
+    for (size_t i = 0; i < factors.size(); ++i) {
+        const float full = dot(luminance, scene.lights[i].intensity);
+        result.push_back(full > 0 ? dot(luminance, scene.lights[i].intensity * factors[i]) / full : factors[i].y);
+    }
+    return result;
+}
+
+PowerSetting parse_ambiance(const std::string& text, const Scene& scene) {
     const size_t colon = text.find(':');
     const std::string name = trimmed(text.substr(0, colon));
-    if (colon == std::string::npos || name.empty())
-        throw Error("--ambiance \"" + text + "\": write NAME: LAMP=FACTOR, LAMP=FACTOR ...");
+    if (colon == std::string::npos && !name.empty())
+        return {name, luminous_factors(scene, chosen_factors(scene, name, {}))};
+    if (name.empty()) throw Error("--ambiance \"" + text + "\": write NAME, or NAME: LAMP=FACTOR, LAMP=FACTOR ...");
     std::vector<std::string> powers = split(text.substr(colon + 1), ',');
     std::erase(powers, "");
-    return {name, parse_powers(scene, powers)};
+    return {name, luminous_factors(scene, parse_powers(scene, powers))};
 }
 
 Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
-                   std::vector<Ambiance> ambiances, const SurveySettings& settings) {
+                   std::vector<PowerSetting> ambiances, const SurveySettings& settings) {
     Survey survey;
     for (SensorSet& set : sets) {
         if (!set.task.empty()) find_task(set.task);
@@ -151,12 +163,13 @@ Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, s
     return survey;
 }
 
-Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance, float maintenance) {
+Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const PowerSetting& ambiance,
+                         float maintenance) {
     return statistics_of(measured.readings, values_of(measured, scene, ambiance, maintenance),
                          measured.set.kind == SensorSet::Kind::surface);
 }
 
-std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance,
+std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const PowerSetting& ambiance,
                              float maintenance) {
     std::vector<Value> values;
     for (const Reading& reading : measured.readings)

@@ -9,13 +9,17 @@
 namespace lw {
 
 /// A named set of powers.
-struct Ambiance {
+struct PowerSetting {
     std::string name;
     std::vector<float> factors;  // per lamp, of the power in the file
 };
 
-/// "NAME: LAMP=FACTOR, LAMP=FACTOR ..." (lamps not named stay at 1). Throws Error for an unknown lamp.
-Ambiance parse_ambiance(const std::string& text, const Scene& scene);
+/// Factors per channel as factors of the lamp's own luminous power: exact for light of the lamp's colour.
+std::vector<float> luminous_factors(const Scene& scene, const std::vector<vec3>& factors);
+
+/// "NAME" of the scene's ambiances, or "NAME: LAMP=FACTOR, LAMP=FACTOR ..." (lamps not named stay at 1). Throws Error
+/// for an unknown name or lamp.
+PowerSetting parse_ambiance(const std::string& text, const Scene& scene);
 
 struct MeasuredSet {
     SensorSet set;
@@ -33,7 +37,7 @@ struct SurveySettings {
 
 struct Survey {
     std::vector<MeasuredSet> sets;
-    std::vector<Ambiance> ambiances;
+    std::vector<PowerSetting> ambiances;
     float maintenance = 1;
     PhotonMap map;         // that was read last
     uint64_t bakes = 0;    // maps made to reach the error
@@ -46,13 +50,14 @@ struct Survey {
 /// small enough. With settings.error the scene is baked again with the photons that the rest needs, at the map's own
 /// settings. Sensors under 1 lx, and blocked ones, are not waited for. Throws Error when interrupted.
 Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
-                   std::vector<Ambiance> ambiances, const SurveySettings& settings);
+                   std::vector<PowerSetting> ambiances, const SurveySettings& settings);
 
 /// The sums of one set in one ambiance.
-Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance, float maintenance);
+Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const PowerSetting& ambiance,
+                         float maintenance);
 
 /// The values of one set in one ambiance.
-std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const Ambiance& ambiance,
+std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const PowerSetting& ambiance,
                              float maintenance);
 
 }  // namespace lw

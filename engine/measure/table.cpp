@@ -30,7 +30,7 @@ std::string verdict_of(const MeasuredSet& measured, const Statistics& statistics
     return name_of(judge(statistics, find_task(measured.set.task)).both());
 }
 
-std::string row_of(const MeasuredSet& measured, size_t i, const Ambiance& ambiance, const Survey& survey,
+std::string row_of(const MeasuredSet& measured, size_t i, const PowerSetting& ambiance, const Survey& survey,
                    const Scene& scene) {
     const Sensor& sensor = measured.set.sensors[i];
     const Reading& reading = measured.readings[i];
@@ -65,7 +65,7 @@ std::string sensors_as_csv(const Survey& survey, const Scene& scene) {
     for (const std::string& name : scene.light_names) text += "," + quoted("lux of " + name);
     text += "\n";
     for (const MeasuredSet& measured : survey.sets)
-        for (const Ambiance& ambiance : survey.ambiances)
+        for (const PowerSetting& ambiance : survey.ambiances)
             for (size_t i = 0; i < measured.readings.size(); ++i) text += row_of(measured, i, ambiance, survey, scene);
     return text;
 }
@@ -75,7 +75,7 @@ std::string fields_as_csv(const Survey& survey, const Scene& scene) {
         "field,task,ambiance,count,blocked,doubtful,Emin,Emin_half_width,Eavg,Eavg_half_width,Emax,Emax_half_width,U0,"
         "U0_half_width,Ud,Ud_half_width,required_lux,required_U0,verdict\n";
     for (const MeasuredSet& measured : survey.sets)
-        for (const Ambiance& ambiance : survey.ambiances) {
+        for (const PowerSetting& ambiance : survey.ambiances) {
             const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
             text += quoted(measured.set.name) + "," + measured.set.task + "," + quoted(ambiance.name) +
                     format(",%zu,%zu,%zu", s.count, s.blocked, s.doubtful);
@@ -94,7 +94,7 @@ std::string fields_as_text(const Survey& survey, const Scene& scene) {
                               "Emin lx", "Emax lx", "U0", "Ud", "task");
     const auto lux = [](Estimate e) { return format("%.4g +- %.2g", e.value, e.half_width); };
     for (const MeasuredSet& measured : survey.sets)
-        for (const Ambiance& ambiance : survey.ambiances) {
+        for (const PowerSetting& ambiance : survey.ambiances) {
             const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
             text += format("%-16s %-12s %6zu %16s %16s %16s %14s %6.2f  %s %s", measured.set.name.c_str(),
                            ambiance.name.c_str(), s.count, lux(s.average).c_str(), lux(s.minimum).c_str(),

@@ -13,6 +13,6 @@ Rgb8Image plan_view(const Scene& scene, const RayCaster& caster, const SensorSet
 
 /// Illuminance of what a camera sees, row by row in lux, 0 where it sees nothing: from the photons and shadow rays.
 std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
-                                     const Camera& camera, const Ambiance& ambiance, int width, int height);
+                                     const Camera& camera, const PowerSetting& ambiance, int width, int height);
 
 }  // namespace lw

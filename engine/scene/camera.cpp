@@ -44,15 +44,15 @@ vec3 camera_direction(const Camera& camera, float x, float y, int width, int hei
     return normalize(camera.rotation * vec3(right, up, -1));
 }
 
-std::vector<float> parse_powers(const Scene& scene, const std::vector<std::string>& texts) {
-    std::vector<float> factors(scene.lights.size(), 1.0f);
+std::vector<vec3> parse_powers(const Scene& scene, const std::vector<std::string>& texts) {
+    std::vector<vec3> factors(scene.lights.size(), vec3(1));
     for (const std::string& text : texts) {
         const size_t equals = text.rfind('=');
         if (equals == std::string::npos) throw Error("--power " + text + ": write LIGHT=FACTOR");
         const auto found = std::find(scene.light_names.begin(), scene.light_names.end(), text.substr(0, equals));
         if (found == scene.light_names.end())
             throw Error("--power " + text + ": no lamp of this name; there are: " + joined(scene.light_names));
-        factors[size_t(found - scene.light_names.begin())] = parse_factor(text.substr(equals + 1), text);
+        factors[size_t(found - scene.light_names.begin())] = vec3(parse_factor(text.substr(equals + 1), text));
     }
     return factors;
 }

@@ -10,7 +10,7 @@ bool reads_extension(const std::string& extension) {
     static constexpr std::array<std::string_view, 11> names = {
         "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_specular", "KHR_materials_ior",
         "KHR_materials_unlit",   "KHR_materials_transmission",      "KHR_materials_volume",   "KHR_texture_transform",
-        "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "EXT_lights_ies"};
+        "KHR_mesh_quantization", "EXT_mesh_gpu_instancing",         "EXT_lights_ies"};
     return std::find(names.begin(), names.end(), extension) != names.end();
 }
 

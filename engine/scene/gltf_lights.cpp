@@ -41,6 +41,11 @@ Light punctual_light(const GltfFile& file, const tinygltf::Light& source, const 
     return light;
 }
 
+/// The name of the node above, "" without one.
+std::string group_of(const GltfFile& file, const PlacedNode& at) {
+    return at.parent < 0 ? "" : name_of(file, size_t(at.parent), "group");
+}
+
 void add_punctual(const GltfFile& file, const PlacedNode& at, Scene& scene) {
     const tinygltf::Node& node = file.model.nodes[at.node];
     const auto* extension = extension_of(node.extensions, "KHR_lights_punctual");
@@ -52,6 +57,7 @@ void add_punctual(const GltfFile& file, const PlacedNode& at, Scene& scene) {
     scene.lights.push_back(punctual_light(file, source, at, label("light", size_t(index), source.name), scene));
     const std::string& name = node.name.empty() ? source.name : node.name;
     scene.light_names.push_back(name.empty() ? "light_" + std::to_string(scene.lights.size()) : name);
+    scene.light_groups.push_back(group_of(file, at));
 }
 
 /// Adds a triangle to a mesh light: its area, and its share of the mean position and direction.
@@ -91,7 +97,10 @@ void add_mesh_light(const std::string& name, const std::vector<size_t>& objects,
     scene.light_names.push_back(name);
 }
 
-void add_mesh_lights(const std::vector<size_t>& object_nodes, Scene& scene) {
+void add_mesh_lights(const GltfFile& file, const std::vector<PlacedNode>& nodes,
+                     const std::vector<size_t>& object_nodes, Scene& scene) {
+    std::map<size_t, std::string> groups;
+    for (const PlacedNode& at : nodes) groups[at.node] = group_of(file, at);
     std::vector<uint> first_triangle(scene.objects.size() + 1, uint(scene.triangles.size()));
     for (size_t t = scene.triangles.size(); t-- > 0;) first_triangle[scene.triangle_objects[t]] = uint(t);
     for (size_t object = 0; object < object_nodes.size();) {
@@ -102,7 +111,9 @@ void add_mesh_lights(const std::vector<size_t>& object_nodes, Scene& scene) {
             const vec3 emission = scene.materials[scene.objects[object].material].emissive;
             if (std::max({emission.x, emission.y, emission.z}) > 0) emissive.push_back(object);
         }
-        if (!emissive.empty()) add_mesh_light(name, emissive, first_triangle, scene);
+        if (emissive.empty()) continue;
+        add_mesh_light(name, emissive, first_triangle, scene);
+        scene.light_groups.push_back(groups[node]);
     }
 }
 
@@ -159,7 +170,7 @@ void load_lights(GltfFile& file, const std::vector<PlacedNode>& nodes, const std
         add_punctual(file, at, scene);
         add_profile_light(file, at, scene);
     }
-    add_mesh_lights(object_nodes, scene);
+    add_mesh_lights(file, nodes, object_nodes, scene);
     if (scene.lights.empty())
         file.fail(
             "the scene has no light: add a point, spot or sun lamp (KHR_lights_punctual) or give a mesh an emissive "

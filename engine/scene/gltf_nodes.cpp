@@ -55,12 +55,13 @@ std::vector<int> roots(const GltfFile& file) {
 std::vector<PlacedNode> place_nodes(const GltfFile& file) {
     struct Visit {
         int node;
-        glm::dmat4 parent;
+        glm::dmat4 world;
+        int parent;
     };
     const tinygltf::Model& model = file.model;
     std::vector<Visit> stack;
     const std::vector<int> first = roots(file);
-    for (auto it = first.rbegin(); it != first.rend(); ++it) stack.push_back({*it, glm::dmat4(1)});
+    for (auto it = first.rbegin(); it != first.rend(); ++it) stack.push_back({*it, glm::dmat4(1), -1});
 
     std::vector<bool> visited(model.nodes.size(), false);
     std::vector<PlacedNode> placed;
@@ -73,10 +74,11 @@ std::vector<PlacedNode> place_nodes(const GltfFile& file) {
         const tinygltf::Node& node = model.nodes[index];
         if (visited[index]) file.fail(label("node", index, node.name) + ": is its own ancestor or has two parents");
         visited[index] = true;
-        const glm::dmat4 world = visit.parent * local_matrix(node);
+        const glm::dmat4 world = visit.world * local_matrix(node);
         if (!is_finite(world)) file.fail(label("node", index, node.name) + ": the transformation is not finite");
-        placed.push_back({index, world});
-        for (auto it = node.children.rbegin(); it != node.children.rend(); ++it) stack.push_back({*it, world});
+        placed.push_back({index, world, visit.parent});
+        for (auto it = node.children.rbegin(); it != node.children.rend(); ++it)
+            stack.push_back({*it, world, visit.node});
     }
     return placed;
 }

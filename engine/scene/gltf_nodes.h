@@ -11,6 +11,7 @@ namespace lw {
 struct PlacedNode {
     size_t node;       // index in the model
     glm::dmat4 world;  // node space to world
+    int parent = -1;   // index in the model, -1 at the root
 };
 
 /// Nodes of the default scene in depth-first order. Throws Error for a cycle or a node with two parents.

@@ -43,9 +43,10 @@ struct Scene {
     std::vector<uint> texels;  // RGBA8 of all textures
 
     std::vector<Light> lights;
-    std::vector<std::string> light_names;  // unique; per light
-    std::vector<Emitter> emitters;         // triangles of mesh lights, grouped per light
-    std::vector<Camera> cameras;           // at least one
+    std::vector<std::string> light_names;   // unique; per light
+    std::vector<std::string> light_groups;  // name of the node above each light, "" at the root
+    std::vector<Emitter> emitters;          // triangles of mesh lights, grouped per light
+    std::vector<Camera> cameras;            // at least one
 
     std::array<vec3, 2> bounds{vec3(0), vec3(0)};  // min, max of positions
     uint64_t content_hash = 0;          // geometry, materials, lamps' places and shapes; not their powers or cameras

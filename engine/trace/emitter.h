@@ -67,7 +67,7 @@ class Emitters {
     float radius_;  // of the sphere around the scene
 };
 
-/// RGB power of each lamp: intensity x factor. `factors` empty means all 1.
-std::vector<vec3> light_weights(const Scene& scene, const std::vector<float>& factors);
+/// RGB power of each lamp: intensity x factor, per channel. `factors` empty means all 1.
+std::vector<vec3> light_weights(const Scene& scene, const std::vector<vec3>& factors);
 
 }  // namespace lw

@@ -61,11 +61,13 @@ struct Outcome {
     std::string out, err;
 };
 
-/// A program of the build folder at work in the source folder; its output goes to files, so no terminal is seen.
+/// A program of the build folder ("" is lumenwalk itself) at work in the source folder; its output goes to files, so no
+/// terminal is seen.
 class Process {
   public:
     Process(const std::string& program, std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), std::string(LUMENWALK_BINARY_DIR "/lumenwalk-") + program);
+        arguments.insert(arguments.begin(),
+                         std::string(LUMENWALK_BINARY_DIR "/lumenwalk") + (program.empty() ? "" : "-" + program));
         std::vector<char*> argv;
         for (std::string& argument : arguments) argv.push_back(argument.data());
         argv.push_back(nullptr);
@@ -87,6 +89,7 @@ class Process {
         waitpid(pid_, nullptr, 0);
     }
 
+    pid_t id() const { return pid_; }
     void interrupt() const { send(SIGINT); }
     void send(int signal) const { kill(pid_, signal); }
     std::string err_so_far() const { return read_text(printed_ / "err"); }

@@ -1,0 +1,29 @@
+// What follows the picture by itself: exposure, the range of the false colours, the resolution while moving.
+#pragma once
+#include "app/session.h"
+
+namespace lw {
+
+/// Moves exposure and range towards what the glance asks for, `seconds` after the last time.
+void adapt_to(Viewing& viewing, const std::vector<Glance>& glance, float seconds);
+
+/// Ends of the false colours that show these values: the 2nd to the 98th percentile, rounded to 1, 2 or 5 times a power
+/// of ten; a linear range no further than 3.5 times the median (signed: 90th percentile), so that a patch of sun burns
+/// out and the room does not drown; even around 0 for signed views.
+vec2 range_of(std::vector<float> values, uint view, bool logarithmic);
+
+/// Chooses by how much the picture's sides are divided while moving, so that a frame takes 66 ms or less: coarser at
+/// any time, finer only after standing still, so that nothing flickers between sizes.
+class Divisor {
+  public:
+    static constexpr uint most = 4;
+
+    /// `wanted`: what the user chose, 0 for automatic. `still`: samples are adding up.
+    uint next(uint wanted, const Statistics& last, bool still);
+
+  private:
+    uint now_ = most;
+    double whole_ms_ = 1e9;  // of a frame with all pixels; not known yet
+};
+
+}  // namespace lw

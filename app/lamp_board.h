@@ -1,0 +1,34 @@
+// The state of every lamp as the user set it: dimmers, switches, solo, filters. Values in, factors out.
+#pragma once
+#include "scene/ambiance.h"
+
+namespace lw {
+
+struct LampState {
+    float dimmer = 1;  // 0 to 2
+    bool on = true;
+    bool solo = false;  // any: only these are lit
+    vec3 color{1};      // filter, linear Rec.709
+};
+
+using LampBoard = std::vector<LampState>;  // one per lamp of the scene
+
+/// What each lamp's power is multiplied by, per channel.
+std::vector<vec3> factors_of(const LampBoard& board);
+
+/// What the board shows, under the names of the lamps; lamps at the power of the file are left out.
+Ambiance ambiance_of(const Scene& scene, const LampBoard& board);
+
+/// The board after choosing an ambiance; `missing` gets the lamps that the scene does not have.
+LampBoard with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing);
+
+/// Between two sets of factors, t from 0 to 1.
+std::vector<vec3> mixed(const std::vector<vec3>& from, const std::vector<vec3>& to, float t);
+
+/// Text of a lamp's power in its own unit at a dimmer: "1200 lm (95 cd)", "250 cd/m2", "10000 lx".
+std::string power_text(const Light& light, float dimmer);
+
+/// The unit of the intensity of a lamp: cd, lx or cd/m2.
+const char* unit_of(const Light& light);
+
+}  // namespace lw

@@ -1,0 +1,101 @@
+// lumenwalk: walk through a baked building, dim its lamps, measure and compare.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "app/play.h"
+#include "app/walkthrough.h"
+#include "base/interrupt.h"
+#include "file/map_file.h"
+
+namespace {
+
+struct Options {
+    lw::WalkthroughSettings walk;
+    std::string scene, map, output, size, gather = "cached";
+    lw::PlaySettings play;
+};
+
+void add_options(CLI::App& app, Options& o) {
+    app.add_option("scene", o.scene, "glTF 2.0 scene, .glb or .gltf")->required();
+    app.add_option("map", o.map, "photon map; default: SCENE.pmap beside the scene, baked when missing or stale");
+    app.add_option("--photons", o.walk.photons, "photons of a map that must be baked")
+        ->check(CLI::Range(uint64_t(1000), uint64_t(2'000'000'000)))
+        ->capture_default_str();
+    app.add_option("--camera", o.walk.camera, "camera to start at; default: the first");
+    app.add_option("--ambiance", o.walk.ambiance, "powers of this name in SCENE.ambiances.json to start with");
+    app.add_option("--size", o.size, "pixels of the window as WxH; default: 1280x720, of --play 960x540");
+    app.add_option("-o,--output", o.output,
+                   "folder of screenshots, probe tables and recorded walks; default: that of the scene");
+    app.add_option("--device", o.walk.device.name, "part of the name of a Vulkan device; default: the fastest kind");
+    app.add_option("--play", o.play.path, "replay this recorded walk without a window and end");
+    app.add_option("--frames", o.play.frames, "with --play: folder for a PNG of every frame");
+    app.add_option("--timings", o.play.timings, "with --play: CSV of the milliseconds of every frame and pass");
+    app.add_option("--gather", o.gather, "with --play: cached (irradiance of the bake), smooth or exact (photons)")
+        ->check(CLI::IsMember({"smooth", "exact", "cached"}))
+        ->capture_default_str();
+    app.add_option("--neighbours", o.play.gather.neighbours, "with --play: photons per estimate")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    app.add_option("--shadow-rays", o.play.gather.shadow_rays, "with --play: shadow rays per pixel and emissive mesh")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    app.add_option("--samples", o.play.samples, "with --play: views averaged per pixel")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    app.add_option("--exposure", o.play.exposure_ev, "with --play: EV100; default: follows the picture");
+    app.add_flag("!--no-vsync", o.walk.vsync, "do not wait for the display");
+    app.add_flag("--validation", o.walk.device.validation,
+                 "run with the Vulkan validation layer; any message is an error");
+}
+
+/// Whether the text is WIDTHxHEIGHT with both from 16 to 16384, or empty.
+bool parse_size(const std::string& text, vk::Extent2D& size) {
+    char end = 0;
+    if (text.empty()) return true;
+    return std::sscanf(text.c_str(), "%ux%u%c", &size.width, &size.height, &end) == 2 && size.width >= 16 &&
+           size.height >= 16 && size.width <= 16384 && size.height <= 16384;
+}
+
+void run(Options& o) {
+    lw::WalkthroughSettings& walk = o.walk;
+    walk.scene = o.scene;
+    walk.map = o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map);
+    walk.output = o.output.empty() ? walk.scene.parent_path() : std::filesystem::path(o.output);
+    if (o.play.path.empty()) return lw::walk_in_window(walk);
+    lw::PlaySettings& play = o.play;
+    play.scene = walk.scene;
+    play.map = walk.map;
+    play.device = walk.device;
+    play.ambiance = walk.ambiance;
+    if (!o.size.empty()) play.size = walk.size;
+    play.gather.mode = o.gather == "exact"    ? lw::gather_mode_exact
+                       : o.gather == "smooth" ? lw::gather_mode_smooth
+                                              : lw::gather_mode_cached;
+    lw::play(play);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app("Walks through a glTF building in the light of its photon map: dim lamps, measure, compare.",
+                 "lumenwalk");
+    add_options(app, options);
+    try {
+        app.parse(argc, argv);
+        if (!parse_size(options.size, options.walk.size))
+            throw CLI::ValidationError("--size: must be WxH in pixels, from 16x16 to 16384x16384");
+        if (options.play.path.empty() && !(options.play.frames.empty() && options.play.timings.empty()))
+            throw CLI::ValidationError("--frames and --timings: only with --play");
+    } catch (const CLI::ParseError& wrong) {
+        return app.exit(wrong) == 0 ? 0 : 2;
+    }
+    try {
+        lw::watch_for_interrupt();
+        run(options);
+    } catch (const std::exception& failure) {
+        std::fprintf(stderr, "lumenwalk: %s\n", failure.what());
+        return 1;
+    }
+    return 0;
+}

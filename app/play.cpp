@@ -1,0 +1,127 @@
+#include "app/play.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "app/adapt.h"
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/replaced_file.h"
+#include "file/map_file.h"
+#include "image/png.h"
+
+namespace lw {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct FrameTimes {
+    double seconds;  // of the path
+    StageTimes passes;
+    double all_ms;  // from the first command recorded to the last one done
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+Rgb8Image read_screen(const Device& device, const Stage& stage, vk::Extent2D size) {
+    Rgb8Image image{int(size.width), int(size.height), {}};
+    for (uint32_t code : read_back<uint32_t>(device, stage.screen(), image.pixel_count()))
+        for (int shift : {0, 8, 16}) image.rgb.push_back(uint8_t(code >> shift & 0xffu));
+    return image;
+}
+
+/// One frame, all its samples, made and waited for.
+FrameTimes make_frame_of(const Device& device, Stage& stage, const Shot& shot, const Look& look) {
+    FrameTimes times{};
+    stage.forget();
+    const Clock::time_point start = Clock::now();
+    for (uint i = 0; i < shot.most_samples; ++i) {
+        submit_and_wait(device, [&](vk::CommandBuffer commands) {
+            stage.record(commands, shot, look, 0, [](vk::CommandBuffer&) {});
+        });
+        const StageTimes pass = stage.times(0);
+        times.passes.visibility_ms += pass.visibility_ms;
+        times.passes.gather_ms += pass.gather_ms;
+        times.passes.view_ms += pass.view_ms;
+    }
+    times.all_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return times;
+}
+
+void write_timings(const std::filesystem::path& path, const std::vector<FrameTimes>& frames) {
+    ReplacedFile file(path);
+    file.stream() << "frame,path seconds,visibility ms,gather ms,view ms,frame ms\n";
+    for (size_t i = 0; i < frames.size(); ++i) {
+        const FrameTimes& f = frames[i];
+        file.stream() << i + 1 << "," << f.seconds << "," << f.passes.visibility_ms << "," << f.passes.gather_ms << ","
+                      << f.passes.view_ms << "," << f.all_ms << "\n";
+    }
+    file.commit();
+}
+
+void print_rate(const std::vector<FrameTimes>& frames) {
+    std::vector<double> all;
+    double sum = 0;
+    for (const FrameTimes& f : frames) all.push_back(f.all_ms), sum += f.all_ms;
+    std::printf("%zu frames, median %.1f ms, slowest %.1f ms, %.1f frames/s\n", frames.size(), median(all),
+                *std::max_element(all.begin(), all.end()), 1000 * double(frames.size()) / sum);
+}
+
+void prepare_folder(const std::filesystem::path& folder) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) throw Error(folder.string() + ": cannot be created: " + failure.message());
+    check_can_create(folder / "frame-0001.png");
+}
+
+std::filesystem::path frame_name(const std::filesystem::path& folder, size_t i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "frame-%04zu.png", i + 1);
+    return folder / name;
+}
+
+}  // namespace
+
+void play(const PlaySettings& settings) {
+    const World world(settings.scene);
+    const Path path = load_path(settings.path);
+    const std::vector<vec3> factors = chosen_factors(world.scene, settings.ambiance, {});
+    const auto map = std::make_shared<const PhotonMap>(load_photon_map(settings.map, world.scene));
+    if (!settings.frames.empty()) prepare_folder(settings.frames);
+    if (!settings.timings.empty()) check_can_create(settings.timings);
+    const Device device(settings.device);
+    Stage stage(device, world.scene, map, world.bvh);
+    stage.resize(settings.size);
+    Viewing viewing;
+    viewing.auto_exposure = !settings.exposure_ev;
+    viewing.exposure_ev = settings.exposure_ev.value_or(0);
+    const auto count = size_t(path.seconds() * path.frames_per_second + 1.5);
+    std::vector<FrameTimes> frames;
+    const auto make = [&](size_t i) {
+        Shot shot;
+        shot.camera = camera_on(path, double(i) / path.frames_per_second, world.scene);
+        shot.lamps_a = factors;
+        shot.gather = settings.gather;
+        shot.most_samples = settings.samples;
+        FrameTimes times = make_frame_of(device, stage, shot, {{}, viewing.exposure_ev});
+        times.seconds = double(i) / path.frames_per_second;
+        return times;
+    };
+    make(0);  // pipelines are made and the exposure is found before the clock runs
+    for (size_t i = 0; i < count; ++i) {
+        adapt_to(viewing, stage.glance(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));
+        frames.push_back(make(i));
+        if (!settings.frames.empty())
+            write_png(frame_name(settings.frames, i), read_screen(device, stage, settings.size));
+    }
+    if (!settings.timings.empty()) write_timings(settings.timings, frames);
+    print_rate(frames);
+    const std::vector<std::string> messages = device.validation_messages();
+    if (!messages.empty()) throw Error("Vulkan validation: first message: " + messages[0]);
+}
+
+}  // namespace lw

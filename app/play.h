@@ -1,0 +1,24 @@
+// Replays a recorded walk frame by frame, without a window: pictures, times, or both.
+#pragma once
+#include "app/session.h"
+
+namespace lw {
+
+struct PlaySettings {
+    std::filesystem::path scene, map, path;
+    std::filesystem::path frames;   // folder of frame-0001.png ...; empty: none
+    std::filesystem::path timings;  // CSV of milliseconds per frame and pass; empty: none
+    DeviceSettings device;
+    vk::Extent2D size{960, 540};
+    std::string ambiance;
+    GatherSettings gather;
+    std::optional<float> exposure_ev;  // EV100; none: follows the picture
+    uint samples = 1;                  // views averaged per frame
+};
+
+/// Renders every frame of the path, one sample each unless `samples` says otherwise, and prints the rate. Frames are
+/// timed one after the other, reading back and writing left out. Throws Error naming the path, the map or the file that
+/// fails.
+void play(const PlaySettings& settings);
+
+}  // namespace lw

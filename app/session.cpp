@@ -1,0 +1,223 @@
+#include "app/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/window.h"
+#include "base/error.h"
+#include "base/replaced_file.h"
+#include "scene/camera.h"
+#include "trace/emitter.h"
+
+namespace lw {
+namespace {
+
+constexpr double recorded_per_second = 10;
+
+/// Loads with `load`; what is wrong is told and remembered, so that the file is not overwritten.
+template <class Value, class Load>
+Value loaded_or_empty(const Load& load, std::string& trouble) {
+    try {
+        return load();
+    } catch (const Error& failure) {
+        trouble = failure.what();
+        std::fprintf(stderr, "warning: %s\n", trouble.c_str());
+        return {};
+    }
+}
+
+void record(Session& session, float seconds) {
+    if (!session.recording) return;
+    Path& path = *session.recording;
+    session.recorded_seconds += double(seconds);
+    if (!path.keys.empty() && session.recorded_seconds < path.keys.back().time + 1 / recorded_per_second) return;
+    const Bookmark b = bookmark_of("", session.walker, session.yfov, session.world.scene);
+    path.keys.push_back({session.recorded_seconds, b.position, double(b.yaw_deg), double(b.pitch_deg)});
+}
+
+Pin measured(const Session& s, const PhotonMap& map, const Hit& hit, vec3 viewer) {
+    const World& w = s.world;
+    const std::vector<vec3> weights = light_weights(w.scene, factors_now(s.lighting));
+    return {hit, viewer, measure(w.scene, w.caster, map, w.bvh, weights, hit, viewer)};
+}
+
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return result + "\"";
+}
+
+}  // namespace
+
+Session::Session(const World& w, std::filesystem::path folder)
+    : world(w),
+      output(std::move(folder)),
+      body(body_for(w.scene)),
+      walker(walker_at(w.scene.cameras[0], body, w.around)),
+      yfov(w.scene.cameras[0].yfov),
+      near(w.scene.cameras[0].near) {
+    lighting.board.resize(w.scene.lights.size());
+    comparison.board = lighting.board;
+    lighting.book = loaded_or_empty<LampBook>([&] { return load_lamp_book(default_ambiances_path(w.scene.path)); },
+                                              lighting.book_trouble);
+    bookmarks = loaded_or_empty<std::vector<Bookmark>>(
+        [&] { return load_bookmarks(default_bookmarks_path(w.scene.path)); }, bookmarks_trouble);
+}
+
+void tell(Session& session, const std::string& text, double seconds) {
+    std::fprintf(stderr, "%s\n", text.c_str());
+    session.notice = {text, Window::now() + seconds};
+}
+
+std::vector<vec3> factors_now(const Lighting& lighting) {
+    const std::vector<vec3> target = factors_of(lighting.board);
+    if (!lighting.fade) return target;
+    return mixed(lighting.fade->from, target, lighting.fade->passed / lighting.fade->seconds);
+}
+
+void fade_to(Lighting& lighting, const LampBoard& board) {
+    const std::vector<vec3> from = factors_now(lighting);
+    lighting.board = board;
+    lighting.fade.reset();
+    if (lighting.fade_seconds > 0) lighting.fade = Fade{from, lighting.fade_seconds, 0};
+}
+
+bool fly_to(Session& s, size_t index) {
+    const std::vector<Camera>& cameras = s.world.scene.cameras;
+    if (index >= cameras.size() + s.bookmarks.size()) return false;
+    const Camera camera = index < cameras.size()
+                              ? cameras[index]
+                              : camera_of(s.bookmarks[index - cameras.size()], s.world.scene, s.yfov, s.near);
+    const Walker to = walker_at(camera, s.body, s.world.around);
+    s.flight = Flight{s.walker, to, s.yfov, camera.yfov};
+    tell(s, camera.name, 2);
+    return true;
+}
+
+void add_bookmark(Session& s) {
+    if (!s.bookmarks_trouble.empty()) {
+        tell(s, s.bookmarks_trouble + "; put it right or move it away");
+        return;
+    }
+    const std::string name = "bookmark " + std::to_string(s.bookmarks.size() + 1);
+    s.bookmarks.push_back(bookmark_of(name, s.walker, s.yfov, s.world.scene));
+    const std::filesystem::path path = default_bookmarks_path(s.world.scene.path);
+    try {
+        save_bookmarks(path, s.bookmarks);
+        tell(s, name + " saved in " + path.string());
+    } catch (const Error& failure) {
+        tell(s, failure.what());
+    }
+}
+
+void toggle_recording(Session& s) {
+    if (!s.recording) {
+        s.recording = Path{30, double(s.yfov) * 180 / double(lw_pi), {}};
+        s.recorded_seconds = 0;
+        tell(s, "recording the walk; R ends it");
+        return;
+    }
+    const Path path = *s.recording;
+    s.recording.reset();
+    if (path.keys.empty()) return;
+    try {
+        const std::filesystem::path file = free_name(s, "path.json");
+        save_path(file, path);
+        tell(s, "walk saved: lumenwalk --play " + file.string());
+    } catch (const Error& failure) {
+        tell(s, failure.what());
+    }
+}
+
+void advance(Session& s, const WalkInput& input, float seconds) {
+    if (s.flight) {
+        s.flight->passed += seconds;
+        s.walker = walker_on(*s.flight);
+        s.yfov = yfov_on(*s.flight);
+        const bool interrupted = length(input.move) > 0 || length(input.turn) > 0;
+        if (interrupted) s.walker = land(s.walker, s.body, s.world.around);
+        if (interrupted || s.flight->passed >= s.flight->seconds) s.flight.reset();
+    } else {
+        s.walker = walk(s.walker, input, seconds, s.body, s.world.around);
+    }
+    if (std::optional<Fade>& fade = s.lighting.fade) {
+        fade->passed += seconds;
+        if (fade->passed >= fade->seconds) fade.reset();
+    }
+    record(s, seconds);
+}
+
+Shot shot_of(const Session& s, uint divisor) {
+    Shot shot;
+    shot.camera = camera_of(s.walker, s.yfov, s.near);
+    shot.lamps_a = factors_now(s.lighting);
+    if (s.comparison.on && !is_inspection(s.viewing.view)) shot.lamps_b = factors_of(s.comparison.board);
+    shot.gather = s.viewing.gather;
+    shot.most_samples = is_inspection(s.viewing.view) ? 1 : s.viewing.most_samples;
+    shot.divisor = divisor;
+    return shot;
+}
+
+Look look_of(const Session& s, bool bgr) {
+    const Viewing& v = s.viewing;
+    const bool logarithmic = v.logarithmic && !is_signed_view(v.view);
+    const ViewKind kind{v.view, v.curve, v.lines && v.view != view_shaded, s.comparison.on};
+    return {kind, v.exposure_ev, v.low, v.high, logarithmic, 10, s.comparison.split, bgr};
+}
+
+void measure_again(Session& s, const PhotonMap& map, bool all) {
+    const Camera camera = camera_of(s.walker, s.yfov, s.near);
+    s.metering.live.reset();
+    if (s.metering.on)
+        if (const auto hit = seen_from(s.world.scene, s.world.caster, camera.position, -camera.rotation[2]))
+            s.metering.live = measured(s, map, *hit, camera.position);
+    if (all)
+        for (Pin& pin : s.metering.pins) pin = measured(s, map, pin.hit, pin.viewer);
+}
+
+void pin_at(Session& s, const PhotonMap& map, vec2 pixel, vec2 size) {
+    const Camera camera = camera_of(s.walker, s.yfov, s.near);
+    const vec3 direction = camera_direction(camera, pixel.x, pixel.y, int(size.x), int(size.y));
+    const auto hit = seen_from(s.world.scene, s.world.caster, camera.position, direction);
+    if (hit) s.metering.pins.push_back(measured(s, map, *hit, camera.position));
+}
+
+std::filesystem::path free_name(const Session& s, const std::string& extension) {
+    const std::string stem = s.world.scene.path.stem().string();
+    for (int i = 1;; ++i) {
+        char number[16];
+        std::snprintf(number, sizeof number, "-%03d.", i);
+        const std::filesystem::path path = s.output / (stem + number + extension);
+        std::error_code ignored;
+        if (!std::filesystem::exists(path, ignored)) return path;
+    }
+}
+
+void save_pins(Session& s) {
+    const Scene& scene = s.world.scene;
+    try {
+        const std::filesystem::path path = free_name(s, "csv");
+        ReplacedFile file(path);
+        std::ostream& out = file.stream();
+        out << "pin,x m,y m,z m,illuminance lx,low lx,high lx,luminance cd/m2,material,triangle";
+        for (const std::string& name : scene.light_names) out << "," << quoted(name + " lx");
+        out << "\n";
+        for (size_t i = 0; i < s.metering.pins.size(); ++i) {
+            const Measurement& m = s.metering.pins[i].value;
+            const glm::dvec3 at = scene.origin + glm::dvec3(m.position);
+            const uint material = scene.objects[scene.triangle_objects[m.triangle]].material;
+            out << i + 1 << "," << at.x << "," << at.y << "," << at.z << "," << m.lux << ","
+                << std::max(m.lux - m.half_width_lux, 0.0f) << "," << m.lux + m.half_width_lux << "," << m.luminance
+                << "," << quoted(scene.material_names[material]) << "," << m.triangle;
+            for (const LampShare& share : m.lamps) out << "," << share.lux;
+            out << "\n";
+        }
+        file.commit();
+        tell(s, std::to_string(s.metering.pins.size()) + " pins saved in " + path.string());
+    } catch (const Error& failure) {
+        tell(s, failure.what());
+    }
+}
+
+}  // namespace lw

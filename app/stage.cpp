@@ -1,0 +1,140 @@
+#include "app/stage.h"
+
+#include "gather/renderer.h"
+
+namespace lw {
+namespace {
+
+constexpr uint coarse_samples = 4;  // of a picture with fewer pixels, until it sharpens
+
+bool same_camera(const Camera& a, const Camera& b) {
+    return a.position == b.position && a.rotation == b.rotation && a.yfov == b.yfov && a.near == b.near;
+}
+
+bool same_gather(const GatherSettings& a, const GatherSettings& b) {
+    return a.mode == b.mode && a.neighbours == b.neighbours && a.shadow_rays == b.shadow_rays;
+}
+
+vk::Extent2D divided(vk::Extent2D size, uint divisor) {
+    return {std::max(1u, size.width / divisor), std::max(1u, size.height / divisor)};
+}
+
+/// Sample `index` of a sum that the view divides: the first through pixel centres, the next ones jittered.
+Frame frame_of_sample(const Camera& camera, vk::Extent2D size, uint index) {
+    Frame frame = make_frame(camera, size, index, index == 0 ? 1 : 2);
+    frame.sample_weight = 1;
+    return frame;
+}
+
+ViewPush push_of(const Look& look, vk::Extent2D screen, vk::Extent2D picture, uint samples) {
+    ViewPush push{};
+    push.screen = uvec2(screen.width, screen.height);
+    push.picture = uvec2(picture.width, picture.height);
+    push.scale_light = 1.0f / float(samples);
+    push.scale_other = is_inspection(look.kind.view) ? 1.0f : push.scale_light;
+    push.exposure_ev = look.exposure_ev;
+    push.low = look.low;
+    push.high = look.high;
+    push.logarithmic = look.logarithmic;
+    push.lines = look.lines;
+    push.split = look.split;
+    push.bgr = look.bgr;
+    return push;
+}
+
+}  // namespace
+
+Stage::Stage(const Device& device, const Scene& scene, std::shared_ptr<const PhotonMap> map, const Bvh& bvh)
+    : device_(&device),
+      map_(std::move(map)),
+      resident_(device, scene, *map_, bvh),
+      lamps_set_(scene.lights.size(), vec3(1)),
+      timestamps_{Timestamps(device, 4), Timestamps(device, 4)} {}
+
+void Stage::resize(vk::Extent2D size) {
+    if (live_ && live_->size() == size) return;
+    device_->handle().waitIdle();
+    live_.reset();
+    live_.emplace(*device_, resident_, size);
+    drawn_.reset();
+    timed_ = {};
+}
+
+bool Stage::shows(const Shot& shot, uint view) const {
+    if (!drawn_) return false;
+    const Shot& d = drawn_->shot;
+    return same_camera(d.camera, shot.camera) && d.lamps_a == shot.lamps_a && d.lamps_b == shot.lamps_b &&
+           same_gather(d.gather, shot.gather) && is_inspection(view) == is_inspection(drawn_->inspected_view);
+}
+
+bool Stage::is_finished(const Shot& shot) const {
+    return drawn_ && shows(shot, drawn_->inspected_view) && samples_ >= shot.most_samples &&
+           picture_size_ == live_->size();
+}
+
+void Stage::set_lamps(const std::vector<vec3>& factors) {
+    if (factors == lamps_set_) return;
+    resident_.set_light_factors(factors);
+    lamps_set_ = factors;
+}
+
+void Stage::record(vk::CommandBuffer& commands, const Shot& shot, const Look& look, uint slot,
+                   const std::function<void(vk::CommandBuffer&)>& flush) {
+    const bool same = shows(shot, look.kind.view);
+    const bool sharpen = same && shot.sharpens && picture_size_ != live_->size();
+    const bool draws =
+        !same || sharpen || samples_ < (picture_size_ == live_->size() ? shot.most_samples : coarse_samples);
+    if (!same || sharpen) {
+        samples_ = 0;
+        picture_size_ = divided(live_->size(), sharpen ? 1 : shot.divisor);
+    }
+    const Timestamps& times = timestamps_[slot];
+    times.reset(commands);
+    times.write(commands, 0);
+    if (draws) {
+        live_->record_visibility(commands, frame_of_sample(shot.camera, picture_size_, samples_));
+        times.write(commands, 1);
+        record_lights(commands, shot, look, flush);
+        drawn_ = {shot, look.kind.view};
+        ++samples_;
+    } else {
+        times.write(commands, 1);
+    }
+    times.write(commands, 2);
+    live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_), slot);
+    times.write(commands, 3);
+    views_[slot] = look.kind.view;
+    timed_[slot] = std::max(1u, live_->size().width / picture_size_.width);
+}
+
+void Stage::record_lights(vk::CommandBuffer& commands, const Shot& shot, const Look& look,
+                          const std::function<void(vk::CommandBuffer&)>& flush) {
+    using Side = LiveView::Side;
+    set_lamps(shot.lamps_a);
+    const Frame frame = frame_of_sample(shot.camera, picture_size_, samples_);
+    live_->record_light(commands, frame, shot.gather, Side::a);
+    if (is_inspection(look.kind.view)) {
+        if (samples_ > 0) return;
+        GatherSettings inspect = shot.gather;
+        inspect.mode = gather_mode_inspect;
+        live_->record_light(commands, frame, inspect, Side::b);
+    } else if (!shot.lamps_b.empty()) {
+        flush(commands);
+        set_lamps(shot.lamps_b);
+        live_->record_light(commands, frame, shot.gather, Side::b);
+        flush(commands);
+        set_lamps(shot.lamps_a);
+    }
+}
+
+std::vector<Glance> Stage::glance(uint slot, uint view) const {
+    return timed_[slot] && views_[slot] == view ? live_->glance(slot) : std::vector<Glance>();
+}
+
+StageTimes Stage::times(uint slot) const {
+    if (!timed_[slot]) return {};
+    const std::vector<double> ms = timestamps_[slot].intervals_ms();
+    return {ms[0], ms[1], ms[2], timed_[slot]};
+}
+
+}  // namespace lw

@@ -1,0 +1,91 @@
+// One baked scene on the device, and the picture of it at one size: lamps A and B, moving and still, one frame at a
+// time.
+#pragma once
+#include <optional>
+
+#include "gather/live_view.h"
+
+namespace lw {
+
+/// How a frame is to look.
+struct Look {
+    ViewKind kind;
+    float exposure_ev = 7;
+    float low = 0, high = 500;  // false colours
+    bool logarithmic = false;
+    uint lines = 0;      // isolux lines over the range
+    float split = 0.5f;  // B is shown right of this part of the width
+    bool bgr = false;    // byte order of the screen
+};
+
+/// What a frame is to show.
+struct Shot {
+    Camera camera;
+    std::vector<vec3> lamps_a, lamps_b;  // factors; b empty: no comparison
+    GatherSettings gather;
+    uint most_samples = 1;  // while nothing changes
+    uint divisor = 1;       // of the picture's width and height while things change
+    bool sharpens = true;   // to all pixels once nothing changes
+};
+
+/// Milliseconds of the passes of a frame, on the device's clock.
+struct StageTimes {
+    double visibility_ms = 0, gather_ms = 0, view_ms = 0;
+    uint divisor = 1;  // of the picture's sides
+    double sum() const { return visibility_ms + gather_ms + view_ms; }
+};
+
+class Stage {
+  public:
+    /// Device, scene and hierarchy must outlive it. Throws Error when the device has not enough memory.
+    Stage(const Device& device, const Scene& scene, std::shared_ptr<const PhotonMap> map, const Bvh& bvh);
+
+    const PhotonMap& map() const { return *map_; }
+    uint64_t bytes() const { return resident_.bytes(); }
+    /// Throws Error when the size is beyond the device.
+    void resize(vk::Extent2D size);
+
+    /// Records a frame of shot and look; samples of the same shot add up. `flush` must send the commands off and begin
+    /// anew: lamps B are set between two parts of a frame.
+    void record(vk::CommandBuffer& commands, const Shot& shot, const Look& look, uint slot,
+                const std::function<void(vk::CommandBuffer&)>& flush);
+    /// The next frame starts anew, whatever it shows.
+    void forget() { drawn_.reset(); }
+    /// True when the next frame of this shot adds to the picture instead of starting anew.
+    bool shows(const Shot& shot, uint view) const;
+    const Buffer& screen() const { return live_->screen(); }
+    uint samples() const { return samples_; }
+    /// True when more frames of the same shot would change nothing.
+    bool is_finished(const Shot& shot) const;
+    /// Values of the last frame of a slot, whose commands must have finished; empty when it showed another view.
+    std::vector<Glance> glance(uint slot, uint view) const;
+    /// Times of the last frame of a slot; its commands must have finished.
+    StageTimes times(uint slot) const;
+    /// Values of what A shows (Rendering::image); waits for the device.
+    Image read_values() const {
+        return live_->read_values(drawn_ ? drawn_->shot.camera : Camera(), picture_size_, std::max(samples_, 1u));
+    }
+
+  private:
+    struct Drawn {  // what the samples so far show
+        Shot shot;
+        uint inspected_view = view_shaded;
+    };
+    void set_lamps(const std::vector<vec3>& factors);
+    void record_lights(vk::CommandBuffer& commands, const Shot& shot, const Look& look,
+                       const std::function<void(vk::CommandBuffer&)>& flush);
+
+    const Device* device_;
+    std::shared_ptr<const PhotonMap> map_;
+    Resident resident_;
+    std::optional<LiveView> live_;
+    std::optional<Drawn> drawn_;
+    vk::Extent2D picture_size_;
+    uint samples_ = 0;
+    std::vector<vec3> lamps_set_;
+    std::array<Timestamps, 2> timestamps_;
+    std::array<uint, 2> views_{};  // of each slot's frame
+    std::array<uint, 2> timed_{};  // divisor of each slot's frame, 0: none yet
+};
+
+}  // namespace lw

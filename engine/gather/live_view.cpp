@@ -1,0 +1,55 @@
+#include "gather/live_view.h"
+
+#include "gather/renderer.h"
+
+namespace lw {
+
+using Stage = vk::PipelineStageFlagBits2;
+
+LiveView::LiveView(const Device& device, const Resident& resident, vk::Extent2D size)
+    : device_(&device),
+      resident_(&resident),
+      size_(size),
+      visibility_(device, resident, size),
+      a_(device, visibility_.texture(), ray_words(uint(resident.scene().lights.size()))),
+      b_(device, visibility_.texture(), ray_words(uint(resident.scene().lights.size()))),
+      view_(device, visibility_.texture(), a_, b_) {}
+
+void LiveView::record_visibility(vk::CommandBuffer commands, const Frame& frame) const {
+    stage_barrier(commands, Stage::eAllCommands, Stage::eAllCommands);  // the frame before still reads the pictures
+    visibility_.record(commands, frame);
+}
+
+GatherPass& LiveView::pass_for(const GatherSettings& settings) {
+    const std::array<uint, 3> key{settings.mode, settings.shadow_rays > 0,
+                                  settings.mode == gather_mode_exact ? settings.neighbours : 0};
+    std::unique_ptr<GatherPass>& pass = passes_[key];
+    if (!pass) pass = std::make_unique<GatherPass>(*device_, *resident_, a_, settings);
+    return *pass;
+}
+
+void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side) {
+    stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
+    pass_for(settings).record(commands, with_gather(frame, *resident_, settings), side == Side::a ? a_ : b_);
+}
+
+void LiveView::record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {
+    stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
+    view_.record(commands, kind, push, slot);
+    stage_barrier(commands, Stage::eAllCommands, Stage::eTransfer | Stage::eHost);
+}
+
+Image LiveView::read_values(const Camera& camera, vk::Extent2D picture_size, uint samples) const {
+    const std::vector<VisibleSample> whole = visibility_.read_samples();
+    std::vector<VisibleSample> visible;
+    for (uint y = 0; y < picture_size.height; ++y)
+        visible.insert(visible.end(), whole.begin() + y * size_.width,
+                       whole.begin() + y * size_.width + picture_size.width);
+    Image image = read_picture(*device_, resident_->scene(), camera, a_, picture_size, visible);
+    for (Channel& channel : image.channels)
+        if (channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "illuminance")
+            for (float& value : channel.values) value /= float(samples);
+    return image;
+}
+
+}  // namespace lw

@@ -1,0 +1,63 @@
+#include "gather/view_pass.h"
+
+#include "gpu/commands.h"
+#include "view.comp.spv.h"
+
+namespace lw {
+namespace {
+
+constexpr size_t glance_bytes = size_t(glance_columns) * glance_rows * sizeof(Glance);
+
+std::vector<Binding> view_bindings() {
+    return {Binding{binding_view_light}, Binding{binding_view_other},
+            Binding{binding_view_visibility, vk::DescriptorType::eSampledImage}, Binding{binding_view_screen},
+            Binding{binding_view_glance}};
+}
+
+}  // namespace
+
+ViewPass::ViewPass(const Device& device, const Target& visibility, const Picture& a, const Picture& b)
+    : device_(&device),
+      glance_(upload<Glance>(device, std::vector<Glance>(glance_bytes / sizeof(Glance)), "glance")),
+      read_back_{Buffer(device, glance_bytes, "glance", Buffer::Place::host),
+                 Buffer(device, glance_bytes, "glance", Buffer::Place::host)},
+      descriptors_(device, view_bindings()) {
+    for (const Buffer& buffer : read_back_) std::fill_n(static_cast<char*>(buffer.mapped()), glance_bytes, char(0));
+    descriptors_.set_buffer(binding_view_light, a.radiance());
+    descriptors_.set_buffer(binding_view_other, b.radiance());
+    descriptors_.set_target(binding_view_visibility, visibility);
+    descriptors_.set_buffer(binding_view_screen, a.screen());
+    descriptors_.set_buffer(binding_view_glance, glance_);
+    const vk::DescriptorSetLayout sets[] = {descriptors_.layout()};
+    layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(ViewPush));
+}
+
+vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled) {
+    vk::UniquePipeline& pipeline = pipelines_[{kind, is_scaled}];
+    if (!pipeline) {
+        std::array<uint, view_constant_count> constants{};
+        constants[constant_view] = kind.view;
+        constants[constant_curve] = kind.curve;
+        constants[constant_has_lines] = kind.has_lines;
+        constants[constant_has_split] = kind.has_split && !is_inspection(kind.view) && !is_signed_view(kind.view);
+        constants[constant_is_scaled] = is_scaled;
+        pipeline = make_compute_pipeline(*device_, *layout_, view_comp, constants);
+    }
+    return *pipeline;
+}
+
+void ViewPass::record(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_for(kind, push.screen != push.picture));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, descriptors_.handle(), {});
+    commands.pushConstants<ViewPush>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+    commands.dispatch((push.screen.x + 7) / 8, (push.screen.y + 7) / 8, 1);
+    stage_barrier(commands, vk::PipelineStageFlagBits2::eComputeShader, vk::PipelineStageFlagBits2::eTransfer);
+    commands.copyBuffer(glance_.handle(), read_back_[slot].handle(), vk::BufferCopy(0, 0, glance_bytes));
+}
+
+std::vector<Glance> ViewPass::glance(uint slot) const {
+    const auto* first = static_cast<const Glance*>(read_back_[slot].mapped());
+    return {first, first + glance_bytes / sizeof(Glance)};
+}
+
+}  // namespace lw

@@ -1,0 +1,42 @@
+// Pictures to what is looked at (shaders/view.comp): exposed, in false colours, A beside B; and the glance, a few of
+// their values, back on the CPU a frame late.
+#pragma once
+#include <array>
+#include <map>
+
+#include "gather/picture.h"
+#include "shaders/view.h"
+
+namespace lw {
+
+/// What makes the view pass a different program.
+struct ViewKind {
+    uint view = view_shaded;
+    uint curve = curve_neutral;
+    bool has_lines = false;
+    bool has_split = false;  // B to the right of push.split
+    auto operator<=>(const ViewKind&) const = default;
+};
+
+class ViewPass {
+  public:
+    static constexpr uint slots = 2;
+
+    /// Reads a and b and what their pixels see, writes the screen of a. All must outlive it.
+    ViewPass(const Device& device, const Target& visibility, const Picture& a, const Picture& b);
+    void record(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot);
+    /// glance_columns x glance_rows values of a slot whose commands have finished.
+    std::vector<Glance> glance(uint slot) const;
+
+  private:
+    vk::Pipeline pipeline_for(const ViewKind& kind, bool is_scaled);
+
+    const Device* device_;
+    Buffer glance_;
+    std::array<Buffer, slots> read_back_;
+    DescriptorSet descriptors_;
+    vk::UniquePipelineLayout layout_;
+    std::map<std::pair<ViewKind, bool>, vk::UniquePipeline> pipelines_;
+};
+
+}  // namespace lw

@@ -1,0 +1,34 @@
+// A light meter in the scene: illuminance at one point with the share of each lamp and a confidence interval from the
+// same photons. More careful and slower than a pixel: all lamps' direct light by many rays, reflected light by the
+// smooth estimate at two bandwidths, whose difference tells of its bias.
+#pragma once
+#include "maps/estimate.h"
+#include "trace/ray_caster.h"
+
+namespace lw {
+
+struct LampShare {
+    float lux = 0;
+    float direct_lux = 0;  // of these, straight from the lamp
+};
+
+struct Measurement {
+    vec3 position{0};  // m, relative to the scene's origin
+    vec3 normal{0};    // geometric, turned to the viewer
+    uint triangle = 0;
+    float lux = 0;
+    float half_width_lux = 0;  // of the 90 % interval
+    float luminance = 0;       // cd/m2 towards the viewer
+    float photons = 0;         // under the kernel
+    float bandwidth = 0;       // m
+    std::vector<LampShare> lamps;
+};
+
+/// What a view ray along unit `direction` meets, glass and holes looked through as the picture does.
+std::optional<Hit> seen_from(const Scene& scene, const RayCaster& caster, vec3 origin, vec3 direction);
+
+/// Measures where `hit` lies, on the side of `viewer`. `weights`: RGB power of each lamp (light_weights()).
+Measurement measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
+                    const std::vector<vec3>& weights, const Hit& hit, vec3 viewer);
+
+}  // namespace lw

@@ -1,0 +1,140 @@
+#include "scene/ambiance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "scene/camera.h"
+#include "scene/json_file.h"
+
+namespace lw {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr float most_factor = 1e6f;
+
+[[noreturn]] void fail(const std::string& where, const std::string& what) { throw Error(where + ": " + what); }
+
+float factor_from(const Json& value, const std::string& where) {
+    if (!value.is_number()) fail(where, "must be a number");
+    const float factor = value.get<float>();
+    if (!(factor >= 0 && factor <= most_factor)) fail(where, "must be from 0 to 1000000");
+    return factor;
+}
+
+LampSetting setting_from(const Json& value, const std::string& where) {
+    LampSetting setting;
+    if (!value.is_object()) {
+        setting.factor = factor_from(value, where);
+        return setting;
+    }
+    for (const auto& [key, part] : value.items()) {
+        if (key == "factor") {
+            setting.factor = factor_from(part, where + ": factor");
+        } else if (key == "color") {
+            if (!part.is_array() || part.size() != 3) fail(where, "color must be [red, green, blue]");
+            for (int c = 0; c < 3; ++c) setting.color[c] = factor_from(part[size_t(c)], where + ": color");
+        } else {
+            fail(where, "unknown entry \"" + key + "\" (there are factor and color)");
+        }
+    }
+    return setting;
+}
+
+Ambiance ambiance_from(const Json& value, const std::string& where) {
+    if (!value.is_object()) fail(where, "must be an object of lamps");
+    Ambiance ambiance;
+    for (const auto& [lamp, setting] : value.items())
+        ambiance[lamp] = setting_from(setting, where + ": lamp \"" + lamp + "\"");
+    return ambiance;
+}
+
+std::vector<std::string> group_from(const Json& value, const std::string& where) {
+    if (!value.is_array()) fail(where, "must be a list of names of lamps");
+    std::vector<std::string> lamps;
+    for (const Json& lamp : value) {
+        if (!lamp.is_string()) fail(where, "must be a list of names of lamps");
+        lamps.push_back(lamp.get<std::string>());
+    }
+    return lamps;
+}
+
+/// Calls add(name, value) for the entries of an object that may be missing.
+template <class Add>
+void each_entry(const Json& file, const char* key, const std::string& where, const Add& add) {
+    if (!file.contains(key)) return;
+    if (!file[key].is_object()) fail(where, std::string(key) + ": must be an object");
+    for (const auto& [name, value] : file[key].items()) add(name, value);
+}
+
+}  // namespace
+
+std::filesystem::path default_ambiances_path(const std::filesystem::path& scene) {
+    return json_beside(scene, "ambiances");
+}
+
+LampBook load_lamp_book(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return {};
+    const Json file = read_json(path);
+    const std::string where = path.string();
+    if (!file.is_object()) fail(where, "must be an object with ambiances and groups");
+    LampBook book;
+    each_entry(file, "ambiances", where, [&](const std::string& name, const Json& value) {
+        book.ambiances[name] = ambiance_from(value, where + ": ambiance \"" + name + "\"");
+    });
+    each_entry(file, "groups", where, [&](const std::string& name, const Json& value) {
+        book.groups[name] = group_from(value, where + ": group \"" + name + "\"");
+    });
+    return book;
+}
+
+void save_lamp_book(const std::filesystem::path& path, const LampBook& book) {
+    Json file = {{"ambiances", Json::object()}, {"groups", Json::object()}};
+    for (const auto& [name, ambiance] : book.ambiances) {
+        Json& lamps = file["ambiances"][name] = Json::object();
+        for (const auto& [lamp, s] : ambiance) {
+            if (s.color == vec3(1))
+                lamps[lamp] = s.factor;
+            else
+                lamps[lamp] = {{"factor", s.factor}, {"color", {s.color.x, s.color.y, s.color.z}}};
+        }
+    }
+    for (const auto& [name, lamps] : book.groups) file["groups"][name] = lamps;
+    write_json(path, file);
+}
+
+std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance) {
+    std::vector<vec3> factors(scene.lights.size(), vec3(1));
+    for (const auto& [lamp, setting] : ambiance) {
+        const auto found = std::find(scene.light_names.begin(), scene.light_names.end(), lamp);
+        if (found == scene.light_names.end()) {
+            std::string names;
+            for (const std::string& name : scene.light_names) names += (names.empty() ? "" : ", ") + name;
+            throw Error(scene.path.string() + ": no lamp \"" + lamp +
+                        "\", which an ambiance names; there are: " + names);
+        }
+        factors[size_t(found - scene.light_names.begin())] = setting.factor * setting.color;
+    }
+    return factors;
+}
+
+std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, const std::vector<std::string>& powers) {
+    std::vector<vec3> factors = parse_powers(scene, powers);
+    if (name.empty()) return factors;
+    const std::filesystem::path path = default_ambiances_path(scene.path);
+    const LampBook book = load_lamp_book(path);
+    const auto found = book.ambiances.find(name);
+    if (found == book.ambiances.end()) {
+        std::string names;
+        for (const auto& [other, lamps] : book.ambiances) names += (names.empty() ? "" : ", ") + other;
+        throw Error(path.string() + ": no ambiance \"" + name + "\"; there are: " + (names.empty() ? "none" : names));
+    }
+    const std::vector<vec3> chosen = light_factors(scene, found->second);
+    for (size_t i = 0; i < factors.size(); ++i) factors[i] *= chosen[i];
+    return factors;
+}
+
+}  // namespace lw

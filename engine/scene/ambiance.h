@@ -1,0 +1,45 @@
+// Ambiances: named sets of lamp powers, kept in SCENE.ambiances.json beside the scene with groups of lamps made by
+// hand.
+//   { "ambiances": { "Evening": { "Pendant": 0.4, "Lounge": { "factor": 1.2, "color": [1, 0.8, 0.6] } } },
+//     "groups": { "Ceiling": ["Pendant", "Spot"] } }
+// A factor multiplies the power the lamp has in the scene file; a color is a filter, linear Rec.709, 1 passes all.
+// Lamps that an ambiance does not name keep the power of the scene file.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace lw {
+
+struct LampSetting {
+    float factor = 1;
+    vec3 color{1};
+    bool operator==(const LampSetting&) const = default;
+};
+
+using Ambiance = std::map<std::string, LampSetting>;  // by the lamp's name
+
+struct LampBook {
+    std::map<std::string, Ambiance> ambiances;
+    std::map<std::string, std::vector<std::string>> groups;  // names of lamps
+};
+
+/// SCENE.glb -> SCENE.ambiances.json.
+std::filesystem::path default_ambiances_path(const std::filesystem::path& scene);
+
+/// Empty when there is no such file. Throws Error naming file, ambiance and lamp for anything malformed.
+LampBook load_lamp_book(const std::filesystem::path& path);
+
+/// Throws Error naming the file when it cannot be written.
+void save_lamp_book(const std::filesystem::path& path, const LampBook& book);
+
+/// One factor per lamp of the scene and channel. Throws Error naming a lamp that the scene does not have.
+std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance);
+
+/// Factors of the ambiance called `name` of the scene's file (none when empty) times those of "LAMP=FACTOR" texts.
+/// Throws Error listing the ambiances, or as light_factors() and parse_powers().
+std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, const std::vector<std::string>& powers);
+
+}  // namespace lw

@@ -1,0 +1,69 @@
+// What an estimate stands on, for the views that show it: bandwidth, photons, noise, the photons themselves. One text for
+// C++ and GLSL; needs shade.glsl.
+
+/// `bandwidth` m and `photons` of the smooth estimate, the standard error of the illuminance relative to it (reflected light
+/// varies with its photons, direct light does not), and 1 + the lamp of a photon nearby, 0 where none lies.
+struct Inspected {
+    float bandwidth;
+    float photons;
+    float relative_error;
+    float dot_lamp;
+};
+
+/// The photon within `reach` metres of a point that is nearest to it, as 1 + its lamp; 0 without one.
+float photon_nearby(SurfaceGrid grid, vec3 local, float reach) LW_MEMBER {
+    float nearest = reach * reach;
+    float lamp = 0.0f;
+    ivec2 low = cell_of(local - vec3(reach, reach, 0.0f), grid);
+    ivec2 high = cell_of(local + vec3(reach, reach, 0.0f), grid);
+    for (int y = low.y; y <= high.y; ++y) {
+        uvec2 span = row_span(grid, low.x, high.x, y);
+        for (uint i = span.x; i < span.y; ++i) {
+            vec3 d = place_in_grid(photon_place(i), grid) - local;
+            if (dot(d, d) >= nearest) continue;
+            nearest = dot(d, d);
+            lamp = 1.0f + float(light_of(photon_place(i)));
+        }
+    }
+    return lamp;
+}
+
+Inspected inspect(Seen seen, float dot_reach, uint seed) LW_MEMBER {
+    Inspected result;
+    result.bandwidth = 0.0f;
+    result.photons = 0.0f;
+    result.relative_error = 0.0f;
+    result.dot_lamp = 0.0f;
+    if (seen.at.map == no_map) return result;
+    SurfaceGrid grid = seen.at.grid;
+    vec3 local = seen.at.local;
+    float radius = bandwidth_from_counts(grid, local);
+    float r2 = radius * radius;
+    vec3 weights = vec3(0.2126f, 0.7152f, 0.0722f) * (2.0f / (lw_pi * r2) * inverse_flux_scale);
+    float sum = 0.0f;
+    float squares = 0.0f;
+    ivec2 low = cell_of(local - vec3(radius, radius, 0.0f), grid);
+    ivec2 high = cell_of(local + vec3(radius, radius, 0.0f), grid);
+    for (int y = low.y; y <= high.y; ++y) {
+        uvec2 span = row_span(grid, low.x, high.x, y);
+        for (uint i = span.x; i < span.y; ++i) {
+            vec3 d = place_in_grid(photon_place(i), grid) - local;
+            float d2 = dot(d, d);
+            if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
+            vec3 flux = unpack_rgb9e5(photon_flux(i)) * light_weight(light_of(photon_place(i)));
+            float lux = dot(flux, weights) * (1.0f - d2 / r2);
+            sum += lux;
+            squares += lux * lux;
+            result.photons += 1.0f;
+        }
+    }
+    float coverage = has_coverage ? coverage_at(seen.at, radius) : 1.0f;
+    Gathered direct = no_light();
+    for (uint word = 0u; has_direct && word < ray_words(light_count); ++word)
+        add_direct(seen.at, word, seen.surface, seen.n_geometric, seen.n_geometric, seen.to_eye, seed, direct);
+    float total = sum / coverage + dot(direct.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
+    result.bandwidth = radius;
+    result.relative_error = total > 0.0f ? sqrt(squares) / coverage / total : 0.0f;
+    result.dot_lamp = photon_nearby(grid, local, min(dot_reach, grid.radius));
+    return result;
+}

@@ -1,0 +1,246 @@
+// The walkthrough's picture without a window: the same light as the renderer's, A beside B, values behind the colours.
+#include "app/stage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/adapt.h"
+#include "app/world.h"
+#include "gather/renderer.h"
+#include "maps/build.h"
+#include "photons/shoot.h"
+#include "programs/lavapipe.h"
+
+namespace lw {
+namespace {
+
+constexpr vk::Extent2D size{96, 80};
+
+struct Room {
+    Room()
+        : world(LUMENWALK_SOURCE_DIR "/data/cornell.gltf"),
+          map(std::make_shared<const PhotonMap>(build_photon_map(
+              world.scene, world.caster, shoot_photons(world.scene, world.caster, {30'000, 1}), {30'000, 0, 60, 1}))),
+          device({"llvmpipe", true, {}}),
+          stage(device, world.scene, map, world.bvh) {
+        stage.resize(size);
+        shot.camera = world.scene.cameras[0];
+        shot.lamps_a = {vec3(1)};
+    }
+
+    /// Codes of the screen after one more frame.
+    std::vector<uint32_t> frame(const Look& look) {
+        vk::UniqueCommandPool pool = device.handle().createCommandPoolUnique({{}, device.queue_family()});
+        std::vector<vk::UniqueCommandBuffer> parts;
+        const auto begin = [&] {
+            auto made = device.handle().allocateCommandBuffersUnique({*pool, vk::CommandBufferLevel::ePrimary, 1});
+            parts.push_back(std::move(made[0]));
+            parts.back()->begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+            return *parts.back();
+        };
+        const auto send = [&](vk::CommandBuffer commands) {
+            commands.end();
+            const vk::CommandBufferSubmitInfo info(commands);
+            device.queue().submit2(vk::SubmitInfo2({}, {}, info, {}), {});
+            device.queue().waitIdle();
+        };
+        vk::CommandBuffer commands = begin();
+        stage.record(commands, shot, look, 0, [&](vk::CommandBuffer& part) {
+            send(part);
+            part = begin();
+        });
+        send(commands);
+        return read_back<uint32_t>(device, stage.screen(), size_t(size.width) * size.height);
+    }
+
+    World world;
+    std::shared_ptr<const PhotonMap> map;
+    Device device;
+    Stage stage;
+    Shot shot;
+};
+
+/// Largest difference of a channel of two screens over columns [first, end).
+int largest_difference(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, uint first, uint end) {
+    int largest = 0;
+    for (uint y = 0; y < size.height; ++y)
+        for (uint x = first; x < end; ++x)
+            for (int shift : {0, 8, 16}) {
+                const size_t i = y * size.width + x;
+                largest = std::max(largest, std::abs(int(a[i] >> shift & 255u) - int(b[i] >> shift & 255u)));
+            }
+    return largest;
+}
+
+uint32_t code_of(vec3 srgb) {
+    uint32_t code = 0xff000000u;
+    for (int c = 0; c < 3; ++c) code |= uint32_t(srgb[c] * 255 + 0.5f) << (8 * c);
+    return code;
+}
+
+TEST(Stage, ShowsWhatTheRendererShows) {
+    SKIP_WITHOUT_LAVAPIPE();
+    Room room;
+    const std::vector<uint32_t> seen = room.frame({{}, 5});
+    Resident resident(room.device, room.world.scene, *room.map, room.world.bvh);
+    Renderer renderer(room.device, resident, size.width, size.height);
+    const Rendering expected = renderer.render(room.shot.camera, {{}, 5.0f, 1, 1});
+    for (size_t i = 0; i < seen.size(); ++i)
+        for (size_t c = 0; c < 3; ++c) ASSERT_EQ(seen[i] >> (8 * c) & 255u, expected.screen.rgb[3 * i + c]) << i;
+    const Image values = room.stage.read_values();
+    for (const Channel& channel : expected.image.channels)
+        EXPECT_EQ(channel.values, values.find(channel.name)->values) << channel.name;
+    EXPECT_EQ(room.device.validation_messages(), std::vector<std::string>{});
+}
+
+TEST(Stage, SplitsThePictureBetweenALeftAndBRight) {
+    SKIP_WITHOUT_LAVAPIPE();
+    Room room;
+    const std::vector<uint32_t> a = room.frame({{}, 5});
+    room.shot.lamps_a = {vec3(0.3f, 0.2f, 0.1f)};
+    const std::vector<uint32_t> b = room.frame({{}, 5});
+    ASSERT_GT(largest_difference(a, b, 0, size.width), 30);
+    room.shot.lamps_a = {vec3(1)};
+    room.shot.lamps_b = {vec3(0.3f, 0.2f, 0.1f)};
+    Look look{{}, 5};
+    look.kind.has_split = true;
+    look.split = 0.5f;
+    const std::vector<uint32_t> split = room.frame(look);
+    EXPECT_EQ(largest_difference(split, a, 0, size.width / 2 - 1), 0);
+    EXPECT_EQ(largest_difference(split, b, size.width / 2 + 1, size.width), 0);
+    EXPECT_EQ(split[size.width / 2], 0xffffffffu) << "the edge";
+    EXPECT_EQ(room.device.validation_messages(), std::vector<std::string>{});
+}
+
+TEST(Stage, ColoursAreThoseOfTheValuesBehindThem) {
+    SKIP_WITHOUT_LAVAPIPE();
+    Room room;
+    room.shot.lamps_b = {vec3(0.5f)};
+    for (uint view : {view_illuminance, view_luminance, view_difference, view_relative_difference}) {
+        Look look{{view}, 5};
+        look.low = is_signed_view(view) ? -60.0f : 1.0f;
+        look.high = is_signed_view(view) ? 60.0f : 200.0f;
+        look.logarithmic = view == view_luminance;
+        const std::vector<uint32_t> seen = room.frame(look);
+        const Image values = room.stage.read_values();
+        for (size_t i = 0; i < seen.size(); i += 7) {
+            const auto at = [&](const char* name) { return values.find(name)->values[i]; };
+            if (at("depth") <= 0) continue;
+            float value = at("illuminance");
+            if (view == view_luminance) value = 0.2126f * at("R") + 0.7152f * at("G") + 0.0722f * at("B");
+            if (view == view_difference) value *= -0.5f;
+            if (view == view_relative_difference) value = value > 1e-4f ? -50.0f : 0.0f;
+            const uint32_t expected = code_of(view_color(view, value, look.low, look.high, look.logarithmic));
+            for (int shift : {0, 8, 16})
+                EXPECT_NEAR(double(seen[i] >> shift & 255u), double(expected >> shift & 255u), 3) << view << " " << i;
+        }
+    }
+}
+
+TEST(Stage, TintedLampsTintThePicture) {
+    SKIP_WITHOUT_LAVAPIPE();
+    Room room;
+    room.frame({{}, 5});
+    const Image white = room.stage.read_values();
+    room.shot.lamps_a = {vec3(1, 0.5f, 0)};
+    room.frame({{}, 5});
+    const Image tinted = room.stage.read_values();
+    for (size_t i = 0; i < white.pixel_count(); ++i) {
+        const float r = white.find("R")->values[i], g = white.find("G")->values[i];
+        EXPECT_NEAR(tinted.find("R")->values[i], r, 0.004f * std::max(r, g) + 1e-3f);  // nodes share an exponent
+        EXPECT_NEAR(tinted.find("G")->values[i], 0.5f * g, 0.004f * std::max(r, g) + 1e-3f);
+        EXPECT_EQ(tinted.find("B")->values[i], 0);
+    }
+}
+
+TEST(Stage, AddsUpSamplesWhileStillAndStartsAnewWhenTheLampsChange) {
+    SKIP_WITHOUT_LAVAPIPE();
+    Room room;
+    room.shot.most_samples = 4;
+    for (uint i = 1; i <= 6; ++i) {
+        EXPECT_EQ(room.stage.is_finished(room.shot), i > 4);
+        room.frame({{}, 5});
+        EXPECT_EQ(room.stage.samples(), std::min(i, 4u));
+    }
+    Resident resident(room.device, room.world.scene, *room.map, room.world.bvh);
+    Renderer renderer(room.device, resident, size.width, size.height);
+    const Image many = renderer.render(room.shot.camera, {{}, 5.0f, 64, 1}).image;
+    const Image one = renderer.render(room.shot.camera, {{}, 5.0f, 1, 1}).image;
+    const Image four = room.stage.read_values();
+    double error_one = 0, error_four = 0;
+    for (size_t i = 0; i < many.pixel_count(); ++i) {
+        const double truth = double(many.find("illuminance")->values[i]);
+        error_one += std::pow(double(one.find("illuminance")->values[i]) - truth, 2);
+        error_four += std::pow(double(four.find("illuminance")->values[i]) - truth, 2);
+    }
+    EXPECT_LT(error_four, 0.6 * error_one);
+    room.shot.lamps_a = {vec3(0.9f)};
+    EXPECT_FALSE(room.stage.is_finished(room.shot));
+    room.frame({{}, 5});
+    EXPECT_EQ(room.stage.samples(), 1u);
+}
+
+TEST(Stage, InMotionHasFewerPixelsAndSharpensWhenStill) {
+    SKIP_WITHOUT_LAVAPIPE();
+    Room room;
+    const std::vector<uint32_t> whole = room.frame({{}, 5});
+    room.stage.forget();
+    room.shot.divisor = 3;
+    room.shot.most_samples = 1;
+    const std::vector<uint32_t> coarse = room.frame({{}, 5});
+    EXPECT_EQ(room.stage.read_values().width, int(size.width / 3));
+    EXPECT_GT(largest_difference(whole, coarse, 0, size.width), 20);
+    EXPECT_FALSE(room.stage.is_finished(room.shot));
+    EXPECT_EQ(largest_difference(whole, room.frame({{}, 5}), 0, size.width), 0);
+    EXPECT_TRUE(room.stage.is_finished(room.shot));
+}
+
+TEST(Stage, InspectsWhatTheSmoothEstimateStandsOn) {
+    SKIP_WITHOUT_LAVAPIPE();
+    Room room;
+    room.shot.gather.neighbours = 20;
+    const auto glance_of = [&](uint view) {
+        room.frame({{view}, 5});
+        double sum = 0, count = 0;
+        for (const Glance& g : room.stage.glance(0, view))
+            if (g.seen > 0 && g.illuminance > 1) sum += double(g.value), count += 1;
+        return sum / count;
+    };
+    EXPECT_NEAR(glance_of(view_photon_count), 20, 8);
+    const double error = glance_of(view_error);
+    EXPECT_GT(error, 2);  // about 1.15 / sqrt(20) of the reflected part
+    EXPECT_LT(error, 28);
+    const double bandwidth = glance_of(view_bandwidth);
+    room.shot.gather.neighbours = 80;
+    EXPECT_GT(glance_of(view_bandwidth), 1.5 * bandwidth);
+    EXPECT_LT(glance_of(view_error), 0.7 * error);
+    EXPECT_EQ(room.device.validation_messages(), std::vector<std::string>{});
+}
+
+TEST(Adapt, RangesAreRoundAndSignedOnesEven) {
+    std::vector<float> values;
+    for (int i = 0; i <= 100; ++i) values.push_back(float(i) * 4.4f);
+    EXPECT_EQ(range_of(values, view_illuminance, false), vec2(0, 500));
+    EXPECT_EQ(range_of(values, view_illuminance, true), vec2(5, 500));
+    EXPECT_EQ(range_of({-3, 1, 2, -17}, view_difference, false), vec2(-20, 20));
+    EXPECT_EQ(range_of({}, view_illuminance, false), vec2(0, 1));
+    std::vector<float> sunlit(100, 100.0f);
+    for (int i = 0; i < 10; ++i) sunlit[size_t(i)] = 9000;
+    EXPECT_EQ(range_of(sunlit, view_illuminance, false), vec2(0, 500)) << "a patch of sun must not drown the room";
+}
+
+TEST(Adapt, DividesThePictureOnlyAsMuchAsItsTimeAsksAndGetsFinerOnlyWhenStill) {
+    Divisor divisor;
+    Statistics last;
+    last.times = {0, 600, 0};
+    EXPECT_EQ(divisor.next(0, last, true), 4u);
+    last.times = {0, 10, 0, 4};
+    EXPECT_EQ(divisor.next(0, last, false), 4u) << "no change of size while moving";
+    last.times = {0, 20, 0};
+    EXPECT_EQ(divisor.next(0, last, true), 1u);
+    EXPECT_EQ(divisor.next(2, last, true), 2u) << "the user's choice";
+}
+
+}  // namespace
+}  // namespace lw

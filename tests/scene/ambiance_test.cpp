@@ -1,0 +1,87 @@
+// Ambiance files: what is saved is loaded, what is malformed is refused with file, ambiance and lamp named.
+#include "scene/ambiance.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "programs/command.h"
+#include "scene/gltf.h"
+
+namespace lw {
+namespace {
+
+std::string refusal_of(const std::string& text) {
+    const TempFolder folder;
+    const std::string path = folder / "room.ambiances.json";
+    write_text(path, text);
+    try {
+        load_lamp_book(path);
+    } catch (const Error& refusal) {
+        EXPECT_NE(std::string(refusal.what()).find("room.ambiances.json"), std::string::npos) << refusal.what();
+        EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos) << refusal.what();
+        return refusal.what();
+    }
+    return "";
+}
+
+TEST(Ambiance, ComesBackFromItsFileAsItWas) {
+    const TempFolder folder;
+    LampBook book;
+    book.ambiances["Evening \"late\""] = {{"Pendant", {0.4f, vec3(1)}}, {"Lounge / 2", {1.25f, vec3(1, 0.8f, 0.5f)}}};
+    book.ambiances["Off"] = {{"Pendant", {0, vec3(1)}}};
+    book.groups["Ceiling"] = {"Pendant", "Spot"};
+    save_lamp_book(folder / "a.json", book);
+    const LampBook loaded = load_lamp_book(folder / "a.json");
+    EXPECT_EQ(loaded.ambiances, book.ambiances);
+    EXPECT_EQ(loaded.groups, book.groups);
+}
+
+TEST(Ambiance, IsEmptyWithoutAFile) {
+    const TempFolder folder;
+    EXPECT_TRUE(load_lamp_book(folder / "missing.json").ambiances.empty());
+}
+
+TEST(Ambiance, RefusesWhatIsMalformedAndNamesIt) {
+    EXPECT_NE(refusal_of("{").find("is not JSON"), std::string::npos);
+    EXPECT_NE(refusal_of("[]").find("must be an object"), std::string::npos);
+    EXPECT_NE(refusal_of(R"({"ambiances": 3})").find("ambiances"), std::string::npos);
+    EXPECT_NE(refusal_of(R"({"ambiances": {"Night": [1]}})").find("\"Night\""), std::string::npos);
+    for (const char* value : {"-1", "\"half\"", "1e30", "null", "{\"factor\": true}", "{\"color\": [1, 1]}",
+                              "{\"color\": [1, -1, 1]}", "{\"colour\": [1, 1, 1]}"})
+        EXPECT_NE(
+            refusal_of("{\"ambiances\": {\"Night\": {\"Lamp\": " + std::string(value) + "}}}").find("lamp \"Lamp\""),
+            std::string::npos)
+            << value;
+    EXPECT_NE(refusal_of(R"({"groups": {"Ceiling": "Lamp"}})").find("\"Ceiling\""), std::string::npos);
+    EXPECT_NE(refusal_of(R"({"groups": {"Ceiling": [1]}})").find("\"Ceiling\""), std::string::npos);
+}
+
+TEST(Ambiance, MultipliesThePowersOfItsLampsAndRefusesUnknownOnes) {
+    const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/cornell.gltf");
+    EXPECT_EQ(light_factors(scene, {})[0], vec3(1));
+    EXPECT_EQ(light_factors(scene, {{"ceiling_lamp", {0.5f, vec3(1, 0.5f, 0)}}})[0], vec3(0.5f, 0.25f, 0));
+    EXPECT_THROW(light_factors(scene, {{"floor_lamp", {}}}), Error);
+}
+
+TEST(Ambiance, DimsThePictureAsPowerDoes) {
+    const TempFolder folder;
+    const std::string scene = folder / "cornell.gltf";
+    std::filesystem::copy_file(LUMENWALK_SOURCE_DIR "/data/cornell.gltf", scene);
+    write_text(folder / "cornell.ambiances.json", R"({"ambiances": {"Half": {"ceiling_lamp": 0.5}}})");
+    const auto shot = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> words{scene, "-o", folder / name, "--size", "8x8", "--samples", "4"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run("reference", words);
+    };
+    ASSERT_EQ(shot("a.exr", {"--ambiance", "Half"}).exit_code, 0);
+    ASSERT_EQ(shot("b.exr", {"--power", "ceiling_lamp=0.5"}).exit_code, 0);
+    ASSERT_EQ(shot("c.exr", {}).exit_code, 0);
+    EXPECT_EQ(read_text(folder / "a.exr"), read_text(folder / "b.exr"));
+    EXPECT_NE(read_text(folder / "a.exr"), read_text(folder / "c.exr"));
+    const Outcome unknown = shot("d.exr", {"--ambiance", "Dawn"});
+    EXPECT_EQ(unknown.exit_code, 1);
+    EXPECT_NE(unknown.err.find("there are: Half"), std::string::npos) << unknown.err;
+}
+
+}  // namespace
+}  // namespace lw
