@@ -11,6 +11,7 @@
 #include "file/map_file.h"
 #include "maps/build.h"
 #include "measure/grid.h"
+#include "measure/reflections.h"
 #include "measure/report.h"
 #include "measure/survey.h"
 #include "measure/table.h"
@@ -22,17 +23,21 @@
 namespace {
 
 struct Options {
-    std::string scene, map, csv, fields_csv, report;
+    std::string scene, map, csv, fields_csv, report, reflections, reflections_csv;
     std::vector<std::string> points, grids, surfaces, photometry, powers, ambiances, cameras;
     double error_percent = 0;
     uint64_t photons = 0;
     unsigned threads = 0;
     lw::SurveySettings survey;
+    lw::ReflectionLimits limits;
+    bool has_sensors() const { return !points.empty() || !grids.empty() || !surfaces.empty(); }
 };
 
 std::string misuse_of(const Options& o) {
-    if (o.points.empty() && o.grids.empty() && o.surfaces.empty())
-        return "say what to measure: --points, --grid or --surface";
+    if (!o.has_sensors() && o.reflections.empty())
+        return "say what to measure: --points, --grid, --surface or --reflections";
+    if (!o.reflections_csv.empty() && o.reflections.empty()) return "--reflections-csv: needs --reflections CAMERA";
+    if (!o.reflections.empty() && o.ambiances.size() > 1) return "--reflections: takes one --ambiance";
     if (o.photons > 0 && !o.map.empty()) return "--photons bakes, so it takes no MAP";
     for (const std::string& power : o.powers)
         if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
@@ -73,6 +78,30 @@ void write_text(const std::string& path, const std::string& text) {
     std::printf("wrote %s\n", path.c_str());
 }
 
+/// Bright reflections of lamps in one view, traced without photons.
+void report_reflections(const Options& o, const lw::Scene& scene, const lw::RayCaster& caster) {
+    const lw::Camera& camera = lw::find_camera(scene, o.reflections);
+    const lw::PowerSetting powers = ambiances_of(o, scene).back();
+    const std::vector<lw::vec3> weights =
+        lw::light_weights(scene, std::vector<lw::vec3>(powers.factors.begin(), powers.factors.end()));
+    lw::ReflectionSettings settings;
+    settings.limits = o.limits;
+    settings.seed = o.survey.meter.seed;
+    const lw::ReflectionReport report = lw::find_reflections(scene, caster, camera, weights, settings);
+    std::printf("camera %s, %s: %zu reflections over %g cd/m2, %g times their surroundings and %g sr\n",
+                camera.name.c_str(), powers.name.c_str(), report.found.size(), o.limits.luminance, o.limits.ratio,
+                o.limits.solid_angle);
+    for (const lw::Reflection& found : report.found)
+        std::printf("  %s; %.2g sr, position index %.1f, at pixel %.0f, %.0f of %dx%d\n",
+                    lw::describe(scene, found).c_str(), found.solid_angle, found.position_index, double(found.x),
+                    double(found.y), report.width, report.height);
+    std::printf("UGR %.1f, of the lamps alone %.1f; background %.3g cd/m2\n", report.ugr, report.ugr_lamps,
+                report.background);
+    if (o.reflections_csv.empty()) return;
+    lw::write_reflections(o.reflections_csv, scene, report);
+    std::printf("wrote %s\n", o.reflections_csv.c_str());
+}
+
 void measure(Options& o) {
     const lw::ThreadLimit limit(o.threads);
     o.survey.error = o.error_percent / 100;
@@ -80,10 +109,12 @@ void measure(Options& o) {
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::vector<lw::SensorSet> sets = sets_of(o, scene);
     std::vector<lw::PowerSetting> ambiances = ambiances_of(o, scene);
-    for (const std::string& path : {o.csv, o.fields_csv, o.report})
+    for (const std::string& path : {o.csv, o.fields_csv, o.report, o.reflections_csv})
         if (!path.empty()) lw::check_can_create(path);
     for (const std::string& camera : o.cameras) lw::find_camera(scene, camera);
     const lw::RayCaster caster(scene);
+    if (!o.reflections.empty()) report_reflections(o, scene, caster);
+    if (!o.has_sensors()) return;
     const lw::Survey survey =
         lw::make_survey(scene, caster, map_of(o, scene, caster), std::move(sets), std::move(ambiances), o.survey);
     for (const std::string& warning : survey.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -147,6 +178,18 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--report", o.report, "self-contained HTML report: tables, plans with isolux lines, camera views");
     app.add_option("--camera", o.cameras, "camera to show in the report in false colours; may be repeated")
         ->allow_extra_args(false);
+    app.add_option("--reflections", o.reflections,
+                   "camera whose view is searched for bright reflections of lamps; needs no map");
+    app.add_option("--reflections-csv", o.reflections_csv, "file of one row per reflection");
+    app.add_option("--least-luminance", o.limits.luminance, "cd/m2 of the mirrored lamp, below which none is reported")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1e9));
+    app.add_option("--least-ratio", o.limits.ratio, "luminance of the reflection over that of its surroundings")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1e9));
+    app.add_option("--least-solid-angle", o.limits.solid_angle, "sr of a reflection")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 12.6));
     app.add_option("--seed", o.survey.meter.seed, "seed of the random numbers")->capture_default_str();
     app.add_option("--ies", o.photometry,
                    "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "

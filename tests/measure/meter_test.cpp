@@ -240,6 +240,23 @@ TEST(Program, MeasuresTheCubeToAFileAndAReport) {
     EXPECT_EQ(folder.names().size(), 3u);
 }
 
+TEST(Program, FindsTheReflectionsOfAViewAndNoneInItsMatteTwin) {
+    const TempFolder folder;
+    const std::string csv = folder / "r.csv";
+    const Outcome bright =
+        run("measure", {"data/bad_reflections.gltf", "--reflections", "desk", "--reflections-csv", csv});
+    EXPECT_EQ(bright.exit_code, 0) << bright.err;
+    EXPECT_NE(bright.out.find("window mirrors desk_2"), std::string::npos) << bright.out;
+    EXPECT_NE(bright.out.find("picture mirrors desk_1"), std::string::npos) << bright.out;
+    EXPECT_NE(read_text(csv).find("\"window\",\"desk_2\","), std::string::npos);
+    const Outcome dark = run("measure", {"data/bad_reflections.gltf", "--reflections", "desk", "--power", "desk_2=0"});
+    EXPECT_EQ(dark.out.find("desk_2"), std::string::npos) << dark.out;
+    const Outcome matte = run("measure", {"data/bad_reflections_matte.gltf", "--reflections", "desk"});
+    EXPECT_NE(matte.out.find(" 0 reflections"), std::string::npos) << matte.out;
+    EXPECT_EQ(run("measure", {"data/bad_reflections.gltf", "--reflections", "nowhere"}).exit_code, 1);
+    EXPECT_EQ(run("measure", {"data/bad_reflections.gltf", "--reflections-csv", csv}).exit_code, 2);
+}
+
 TEST(Program, RefusesBadCommandLinesAndFiles) {
     const TempFolder folder;
     const std::string csv = folder / "s.csv";
