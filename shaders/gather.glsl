@@ -28,8 +28,9 @@ void add_photon(uint i, PhotonPlace place, float kernel, Surface s, vec3 n_geome
 
 /// Brings sums of flux to irradiance and radiance; `peak` (1/m2) is what all kernels have in common.
 void add_up(float peak, Surface s, vec3 n_shading, vec3 to_view, LW_INOUT(Gathered) sum) LW_MEMBER {
-    sum.irradiance *= peak * inverse_flux_scale;
-    sum.radiance *= peak * inverse_flux_scale;
+    float scale = min(peak * inverse_flux_scale, 1e30f);  // a number, however small the kernel
+    sum.irradiance *= scale;
+    sum.radiance *= scale;
     if (!has_directions) sum.radiance = sum.irradiance * eval_brdf(s, n_shading, to_view, n_shading, true);
 }
 

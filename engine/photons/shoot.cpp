@@ -98,7 +98,8 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
         const vec3 reflected = next ? flux * next->weight : vec3(0);
         const float before = std::max({flux.x, flux.y, flux.z}),
                     after = std::max({reflected.x, reflected.y, reflected.z});
-        const float longest_survival = depth < depth_of_roulette ? 1.0f : 0.95f;  // ends what is caught in clear glass
+        // Ends what is caught in clear glass.
+        const float longest_survival = depth < depth_of_roulette || (next && !next->specular) ? 1.0f : 0.95f;
         const float survival = before > 0 ? std::min(longest_survival, after / before) : 0.0f;
         if (!(rng.next() < survival)) {
             chunk.absorbed += luminance(flux);
