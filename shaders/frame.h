@@ -79,9 +79,9 @@ LW_CONST uint stage_photons = 0u;
 LW_CONST uint stage_rays = 1u;
 LW_CONST uint gather_group_side = 8u;  // pixels
 
-/// The arguments of the dispatches for rays to the lamps of each word, before the pixels listed, those of word w from
-/// w * pixels of the picture. A dispatch for each word: Mesa's software rasterizer ends
-/// all loops of an invocation after 65,535 rounds in sum, without a word, and rays to many lamps get there.
+/// The arguments of the dispatch for rays to the lamps of a word; its pixels are listed from word * pixels of the picture on.
+/// A dispatch for each word: Mesa's software rasterizer ends all loops of an invocation after 65,535 rounds in sum, without
+/// a word, and rays to many lamps get there.
 struct RayPixels {
     uint groups_x;
     uint groups_y;

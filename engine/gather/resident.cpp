@@ -39,7 +39,6 @@ bool any_material(const Scene& scene, uint flags) {
                        [&](const Material& m) { return (m.flags & flags) != 0; });
 }
 
-/// Bytes that the map and the scene take on the device.
 bool any_texture(const Scene& scene, TextureSlot Material::*slot) {
     return std::any_of(scene.materials.begin(), scene.materials.end(),
                        [=](const Material& m) { return (m.*slot).texture >= 0; });
@@ -52,10 +51,13 @@ bool has_mirrors(const Scene& scene) {
     });
 }
 
+/// Bytes that the scene and the map take on the device: corners of triangles, textures, the map with the light of its
+/// cells.
 uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
-    return bytes(s.positions) + bytes(s.normals) + bytes(s.uv0) + bytes(s.uv1) + bytes(s.colors) + bytes(s.tangents) +
-           bytes(s.triangles) + bytes(s.triangle_objects) + bytes(s.texels) + m.bytes();
+    const uint64_t corner = 32 + (s.uv1.empty() ? 0 : 8) + (s.colors.empty() ? 0 : 16) + (s.tangents.empty() ? 0 : 16);
+    return s.triangles.size() * (3 * corner + sizeof(uvec4)) + bytes(s.texels) + m.bytes() +
+           m.coverage.size() * (sizeof(uvec4) + cell_lamp_words(uint(s.lights.size())) * sizeof(uint));
 }
 
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map) {
