@@ -271,13 +271,17 @@ TEST(Estimate, LightOfCellsHoldsSmallLampsAsTheyAre) {
     Rng rng(3, 1, 1);
     double error2 = 0, difference = 0, sum = 0;
     int count = 0;
-    for (uint t = 0; t < scene.triangles.size(); t += 3) {
-        const vec2 place = sample_triangle(rng.next(), rng.next());
-        const vec3 n = exact.surface_at(t, place).geometric_normal;
-        const double expected = double(exact.estimate(t, place, n).irradiance.y),
-                     got = double(from_cells.estimate(t, place, n).irradiance.y);
-        error2 += (got - expected) * (got - expected), difference += got - expected, sum += expected;
-        ++count;
+    for (uint t = 0; t < scene.triangles.size(); ++t) {
+        const vec3 p0 = exact.corner_position(t, 0);
+        const float area = 0.5f * length(cross(exact.corner_position(t, 1) - p0, exact.corner_position(t, 2) - p0));
+        for (int i = 0; i < int(20 * area + rng.next()); ++i) {
+            const vec2 place = sample_triangle(rng.next(), rng.next());
+            const vec3 n = exact.surface_at(t, place).geometric_normal;
+            const double expected = double(exact.estimate(t, place, n).irradiance.y),
+                         got = double(from_cells.estimate(t, place, n).irradiance.y);
+            error2 += (got - expected) * (got - expected), difference += got - expected, sum += expected;
+            ++count;
+        }
     }
     ASSERT_GT(sum, 0);
     EXPECT_LT(std::abs(difference) / sum, 0.003);
