@@ -1,9 +1,9 @@
 // Exact direct light by shadow rays through the BVH: one ray for a point, spot or directional lamp, `shadow_rays` for an
-// emissive mesh; with shadow_rays = 0 none, and shadows as sharp as the lattice. One text for C++ and GLSL. The including
-// scope provides what gather.glsl and rays.glsl need, the array emitters, the functions light_at,
-// light_weight, profile_value, cell_lamps, and the constants has_mesh_lamps, has_profiles, has_emissive_textures,
-// has_visible_lamps, has_shadow_rays, light_count,
-// shadow_rays, ray_epsilon, scene_size. Written for devices that run both sides of a branch: one place that traces.
+// emissive mesh; none where the cell knows what a lamp lights, all over or by a mask; with shadow_rays = 0 none at all, and
+// shadows as sharp as masks and lattice. One text for C++ and GLSL. The including scope provides what gather.glsl and
+// rays.glsl need, the array emitters, the functions light_at, light_weight, profile_value, cell_word, shadow_mask, and the
+// constants has_mesh_lamps, has_profiles, has_emissive_textures, has_visible_lamps, has_shadow_masks, has_smooth_caustics,
+// has_shadow_rays, light_count, shadow_rays, ray_epsilon, scene_size.
 
 /// Light that would arrive at a point from one place of a lamp at unit intensity, if nothing stood between.
 struct LightSample {
@@ -82,20 +82,60 @@ uint hash_uint(uint x) LW_MEMBER {  // Wellons 2018, "lowbias32"
     return x ^ (x >> 16);
 }
 
-/// The part of a lamp that the corners of a cell see, between them.
-float visible_part(uint bits, vec2 f) LW_MEMBER {
-    vec4 sees = vec4(float((bits >> 4) & 1u), float((bits >> 5) & 1u), float((bits >> 6) & 1u), float((bits >> 7) & 1u));
-    return mix(mix(sees.x, sees.y, f.x), mix(sees.z, sees.w, f.x), f.y);
+/// What is known of the light of one lamp at a place.
+struct Sight {
+    vec3 passed;   // the part that arrives, unless
+    bool by_rays;  // only rays tell
+};
+
+/// The part of 8 x 8 points that are lit, between the four around `f` in the cell.
+float lit_part(uvec4 mask, vec2 f) LW_MEMBER {
+    float last = float(shadow_mask_side - 1u);
+    vec2 at = clamp(f * float(shadow_mask_side) - 0.5f, vec2(0.0f), vec2(last));
+    vec2 base = min(floor(at), vec2(last - 1.0f));
+    uint x = uint(base.x);
+    uint y = uint(base.y);
+    uint row = ((y < 4u ? mask.x : mask.y) >> (shadow_mask_side * (y & 3u) + x)) & 3u;
+    uint above = (((y + 1u) < 4u ? mask.x : mask.y) >> (shadow_mask_side * ((y + 1u) & 3u) + x)) & 3u;
+    return corners_set(row | above << 2, at - base);
 }
 
-/// Adds the light of lamp `i`, of which the cell around knows `bits`.
-void add_lamp(MapPlace at, uint i, uint bits, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+/// True when the 4 x 4 points around `f` in the cell are not all lit or all dark.
+bool is_edge(uvec4 mask, vec2 f) LW_MEMBER {
+    ivec2 base = ivec2(int(floor(f.x * float(shadow_mask_side) - 0.5f)), int(floor(f.y * float(shadow_mask_side) - 0.5f)));
+    ivec2 first = ivec2(clamp(base.x - 1, 0, 7), clamp(base.y - 1, 0, 7));
+    ivec2 last = ivec2(clamp(base.x + 2, 0, 7), clamp(base.y + 2, 0, 7));
+    uint columns = ((2u << uint(last.x)) - (1u << uint(first.x))) * 0x01010101u;
+    uint low_rows = first.y > 3 ? 0u : (0xffffffffu << uint(8 * first.y)) & (last.y > 2 ? 0xffffffffu : (1u << uint(8 * last.y + 8)) - 1u);
+    uint high_rows = last.y < 4 ? 0u : (last.y > 6 ? 0xffffffffu : (1u << uint(8 * last.y - 24)) - 1u) & (first.y < 5 ? 0xffffffffu : 0xffffffffu << uint(8 * first.y - 32));
+    uint low = columns & low_rows;
+    uint high = columns & high_rows;
+    bool dark = (mask.x & low) == 0u && (mask.y & high) == 0u;
+    bool lit = (mask.x & low) == low && (mask.y & high) == high;
+    return !dark && !lit;
+}
+
+/// `bits` are what the cell knows of the lamp, `mask` its shadow mask, if it has one.
+Sight sight_of(uint bits, uint mask, vec2 f) LW_MEMBER {
+    Sight sight;
+    sight.passed = vec3(1.0f);
+    uint seen = bits & (some_visible | some_hidden);
+    sight.by_rays = has_shadow_rays && seen != some_visible;
+    if (!has_shadow_rays && has_visible_lamps) sight.passed = vec3(corners_set(bits >> 4, f));  // on no map: of no lamp
+    if (has_shadow_masks && (bits & has_shadow_mask) != 0u) {
+        uvec4 points = shadow_mask(mask);
+        sight.passed = lit_part(points, f) * unpack_rgb9e5(points.z);
+        sight.by_rays = has_shadow_rays && is_edge(points, f);
+    }
+    return sight;
+}
+
+/// Adds the light of lamp `i`, as much as arrives.
+void add_lamp(uint i, Sight sight, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
               LW_INOUT(Gathered) sum) LW_MEMBER {
     Light lamp = light_at(i);
     bool mesh = lamp.type == light_mesh;
-    uint seen = bits & (some_visible | some_hidden);
-    vec3 weight = light_weight(i);
-    if (!has_shadow_rays && seen != 0u) weight *= visible_part(bits, at.f);
+    vec3 weight = light_weight(i) * sight.passed;
     uint random = hash_uint(seed + hash_uint(i));
     vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
     uint samples = mesh ? max(shadow_rays, 1u) : 1u;
@@ -106,7 +146,7 @@ void add_lamp(MapPlace at, uint i, uint bits, Surface s, vec3 n_geometric, vec3 
         float cos_geometric = dot(n_geometric, light.to_light);
         vec3 incoming = weight * light.irradiance / float(samples);
         if (cos_geometric <= 0.0f || max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) continue;
-        if (has_shadow_rays && seen != some_visible)
+        if (has_shadow_rays && sight.by_rays)
             incoming *= shadow_ray(s.position + n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
         sum.irradiance += incoming * cos_geometric;
         sum.radiance += incoming * max(dot(n_shading, light.to_light), 0.0f) *
@@ -114,11 +154,16 @@ void add_lamp(MapPlace at, uint i, uint bits, Surface s, vec3 n_geometric, vec3 
     }
 }
 
+/// What the cell around a place knows of the lamps of a word; 0 when it knows nothing.
+uint lamp_bits(MapPlace at, uint word) LW_MEMBER {
+    bool has_marks = has_smooth_caustics || has_shadow_masks;
+    if (!has_visible_lamps || at.map == no_map) return 0u;
+    return cell_word(at.cell * cell_words(light_count, has_marks) + (has_marks ? 1u : 0u) + word);
+}
+
 /// One bit per lamp of a word of a cell, at its lowest: set for those a pixel has to add. Hidden ones are skipped, and in
 /// the cached mode those that the light of the cell holds.
-uint lamps_to_add(MapPlace at, uint word, LW_INOUT(uint) bits) LW_MEMBER {
-    bits = 0u;
-    if (has_visible_lamps && at.map != no_map) bits = cell_lamps(at.cell * cell_lamp_words(light_count) + word);
+uint lamps_to_add(uint bits, uint word) LW_MEMBER {
     uint skipped = (bits >> 1) & ~bits;
     if (gather_mode == gather_mode_cached) skipped |= bits >> 2;
     uint left = light_count - word * cell_lamps_per_word;
@@ -126,16 +171,39 @@ uint lamps_to_add(MapPlace at, uint word, LW_INOUT(uint) bits) LW_MEMBER {
     return 0x01010101u & ~skipped & all;
 }
 
-/// Adds the direct light of the lamps of one word at a place. `seed` shifts the points on mesh lamps (Cranley & Patterson
-/// 1976) of the R2 sequence (Roberts 2018).
-void add_direct(MapPlace at, uint word, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+/// The shadow mask of the first lamp of a word that has one.
+uint first_shadow_mask(MapPlace at, uint word) LW_MEMBER {
+    if (!has_shadow_masks || !has_visible_lamps || at.map == no_map) return 0u;
+    uint mask = cell_word(at.cell * cell_words(light_count, true)) >> first_mask_shift;
+    for (uint before = 0u; before < word; ++before) mask += bitCount(lamp_bits(at, before) & 0x08080808u);
+    return mask;
+}
+
+/// What is known of the lamp whose bits begin at `shift` in its word.
+Sight sight_in_word(MapPlace at, uint bits, uint shift, uint first_mask) LW_MEMBER {
+    return sight_of((bits >> shift) & 255u, first_mask + bitCount(bits & 0x08080808u & ((1u << shift) - 1u)), at.f);
+}
+
+/// True when rays have to be traced for a lamp of a word.
+bool needs_shadow_rays(MapPlace at, uint word) LW_MEMBER {
+    uint bits = lamp_bits(at, word);
+    uint first_mask = first_shadow_mask(at, word);
+    bool any = false;
+    for (uint todo = has_shadow_rays ? lamps_to_add(bits, word) : 0u; todo != 0u; todo &= todo - 1u)
+        any = any || sight_in_word(at, bits, uint(findLSB(todo)), first_mask).by_rays;
+    return any;
+}
+
+/// Adds the direct light of the lamps of one word at a place: of those that need rays, or of all others. `seed` shifts the
+/// points on mesh lamps (Cranley & Patterson 1976) of the R2 sequence (Roberts 2018).
+void add_direct(MapPlace at, uint word, bool by_rays, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
-    uint bits = 0u;
-    uint todo = lamps_to_add(at, word, bits);
-    while (todo != 0u) {
+    uint bits = lamp_bits(at, word);
+    uint first_mask = first_shadow_mask(at, word);
+    for (uint todo = lamps_to_add(bits, word); todo != 0u; todo &= todo - 1u) {
         uint shift = uint(findLSB(todo));
-        todo &= todo - 1u;
-        add_lamp(at, word * cell_lamps_per_word + shift / 8u, (bits >> shift) & 255u, s, n_geometric, n_shading, to_view, seed,
-                 sum);
+        Sight sight = sight_in_word(at, bits, shift, first_mask);
+        if (sight.by_rays != by_rays) continue;
+        add_lamp(word * cell_lamps_per_word + shift / 8u, sight, s, n_geometric, n_shading, to_view, seed, sum);
     }
 }

@@ -24,18 +24,19 @@ LW_CONST uint binding_fluxes = 9u;
 LW_CONST uint binding_directions = 10u;
 LW_CONST uint binding_coverage = 11u;
 LW_CONST uint binding_cell_light = 12u;  // RGBA32
-LW_CONST uint binding_cell_lamps = 13u;
+LW_CONST uint binding_cell_words = 13u;
 LW_CONST uint binding_bvh_nodes = 14u;  // RGBA32, BvhNode
 LW_CONST uint binding_bvh_triangles = 15u;
 LW_CONST uint binding_looks = 16u;  // RGBA32, the first look_texels of each Material: all but its textures
 LW_CONST uint binding_lamp_powers = 17u;  // RGBA32F, LampPower
 LW_CONST uint binding_caustic_maps = 18u;  // RG32 per triangle: map of the front, of the back; empty without caustics
-LW_CONST uint texel_binding_count = 19u;
-LW_CONST uint binding_materials = 19u;  // from here on storage buffers
-LW_CONST uint binding_textures = 20u;
-LW_CONST uint binding_lights = 21u;
-LW_CONST uint binding_emitters = 22u;
-LW_CONST uint scene_binding_count = 23u;
+LW_CONST uint binding_shadow_masks = 19u;  // RGBA32
+LW_CONST uint texel_binding_count = 20u;
+LW_CONST uint binding_materials = 20u;  // from here on storage buffers
+LW_CONST uint binding_textures = 21u;
+LW_CONST uint binding_lights = 22u;
+LW_CONST uint binding_emitters = 23u;
+LW_CONST uint scene_binding_count = 24u;
 LW_CONST uint look_texels = 6u;
 
 // Photon records beyond the device's texel buffers are split into chunks of 2^shift records, one descriptor each.
@@ -72,7 +73,9 @@ LW_CONST uint constant_has_mirrors = 20u;
 LW_CONST uint constant_stage = 21u;
 LW_CONST uint constant_has_caustics = 22u;
 LW_CONST uint constant_has_profiles = 23u;
-LW_CONST uint constant_count = 24u;
+LW_CONST uint constant_has_smooth_caustics = 24u;
+LW_CONST uint constant_has_shadow_masks = 25u;
+LW_CONST uint constant_count = 26u;
 
 /// The dispatches of the gather: photons at all pixels, then rays at those that need any.
 LW_CONST uint stage_photons = 0u;

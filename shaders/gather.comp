@@ -22,7 +22,8 @@ layout(set = 0, binding = binding_fluxes) uniform utextureBuffer fluxes[most_chu
 layout(set = 0, binding = binding_directions) uniform utextureBuffer directions[most_chunks];
 layout(set = 0, binding = binding_coverage) uniform utextureBuffer coverage;
 layout(set = 0, binding = binding_cell_light) uniform utextureBuffer light_of_cells;
-layout(set = 0, binding = binding_cell_lamps) uniform utextureBuffer lamps_of_cells;
+layout(set = 0, binding = binding_cell_words) uniform utextureBuffer words_of_cells;
+layout(set = 0, binding = binding_shadow_masks) uniform utextureBuffer shadow_masks;
 layout(set = 0, binding = binding_bvh_nodes) uniform utextureBuffer bvh_nodes;
 layout(set = 0, binding = binding_bvh_triangles) uniform utextureBuffer bvh_triangles;
 
@@ -108,7 +109,9 @@ uint node_coverage(uint node) { return texelFetch(coverage, int(node)).x; }
 
 uvec4 cell_light(uint cell) { return texelFetch(light_of_cells, int(cell)); }
 
-uint cell_lamps(uint word) { return texelFetch(lamps_of_cells, int(word)).x; }
+uint cell_word(uint word) { return texelFetch(words_of_cells, int(word)).x; }
+
+uvec4 shadow_mask(uint i) { return texelFetch(shadow_masks, int(i)); }
 
 vec3 light_weight(uint light) { return texelFetch(lamp_powers, int(2u * light)).xyz; }
 
@@ -166,7 +169,7 @@ void main() {
         if (stage == stage_rays) {
             add_rays(seen, frame.ray_word, seed, light);
         } else {
-            light = without_rays(seen);
+            light = without_rays(seen, seed);
             for (uint word = 0u; (has_direct || has_mirrors) && word < ray_words(light_count); ++word)
                 if (needs_rays(seen, word)) list_pixel(pixel, word);
         }

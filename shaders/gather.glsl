@@ -183,6 +183,12 @@ vec3 position_in_grid(SurfaceGrid grid, vec3 position) LW_MEMBER {
     return vec3(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
 }
 
+/// The part of the corners of a cell whose bits 0 to 3 are set, as seen from `f` in the cell.
+float corners_set(uint bits, vec2 f) LW_MEMBER {
+    vec4 set = vec4(float(bits & 1u), float((bits >> 1) & 1u), float((bits >> 2) & 1u), float((bits >> 3) & 1u));
+    return mix(mix(set.x, set.y, f.x), mix(set.z, set.w, f.x), f.y);
+}
+
 /// Where a point lies on a map.
 struct MapPlace {
     uint map;  // or no_map, then nothing else holds

@@ -64,10 +64,26 @@ LW_CONST uint in_cell_light = 4u;
 LW_CONST uint corner_sees = 16u;  // << 0 to 3: corner (0, 0), (1, 0), (0, 1), (1, 1)
 LW_CONST uint cell_lamps_per_word = 4u;
 LW_INLINE uint cell_lamp_words(uint lamps) { return (lamps + cell_lamps_per_word - 1u) / cell_lamps_per_word; }
+LW_CONST uint has_shadow_mask = 8u;
+/// Words of a cell in the array of what cells know: its marks, if any cell has some, then its lamps. Marks: the corners, in the
+/// order of corner_sees, whose light holds the caustics; above them the first of its shadow masks, in the order of lamps.
+LW_INLINE uint cell_words(uint lamps, bool has_marks) { return cell_lamp_words(lamps) + (has_marks ? 1u : 0u); }
+LW_CONST uint first_mask_shift = 4u;
 /// Words that rays are traced for: one even without lamps, for mirrors.
 LW_INLINE uint ray_words(uint lamps) { return max(cell_lamp_words(lamps), 1u); }
 LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
 LW_INLINE uint cell_lamp_shift(uint lamp) { return 8u * (lamp % cell_lamps_per_word); }
+
+/// Which of 8 x 8 points of a cell a lamp lights: bit 8 j + i of (lit_low, lit_high), points at the middles of texels, and
+/// the light that reaches those, RGB9E5.
+struct ShadowMask {
+    uint cell;
+    uint lamp;
+    uint lit_low;
+    uint lit_high;
+    uint tint;
+};
+LW_CONST uint shadow_mask_side = 8u;
 
 /// Where a referenced photon lies in its map, and which light it came from (8 bytes).
 struct PhotonPlace {
@@ -141,7 +157,7 @@ LW_INLINE vec3 unpack_direction(uint bits) {
 }
 
 #ifdef __cplusplus
-static_assert(sizeof(SurfaceLattice) == 28);
+static_assert(sizeof(SurfaceLattice) == 28 && sizeof(ShadowMask) == 20);
 static_assert(sizeof(SurfaceGrid) == 16 * surface_grid_texels && offsetof(SurfaceGrid, lattice) == 84 && sizeof(PhotonPlace) == 8);
 }  // namespace lw
 #endif

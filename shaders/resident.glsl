@@ -24,6 +24,8 @@ layout(constant_id = constant_has_transmission_textures) const bool has_transmis
 layout(constant_id = constant_has_emissive_textures) const bool has_emissive_textures = true;
 layout(constant_id = constant_has_shadow_rays) const bool has_shadow_rays = true;
 layout(constant_id = constant_has_caustics) const bool has_caustics = true;
+layout(constant_id = constant_has_smooth_caustics) const bool has_smooth_caustics = true;
+layout(constant_id = constant_has_shadow_masks) const bool has_shadow_masks = true;
 layout(constant_id = constant_has_profiles) const bool has_profiles = true;
 layout(constant_id = constant_stage) const uint stage = stage_photons;
 

@@ -32,19 +32,22 @@ vec3 own_radiance(Surface s, bool front) LW_MEMBER {
     return s.emissive * (s.light >= 0 ? lamp_factor(uint(s.light)) : vec3(1.0f));
 }
 
-/// Photons and glow: all there is to see, but for add_rays() where needs_rays() says so.
-Gathered without_rays(Seen seen) LW_MEMBER {
+/// Photons, glow and the lamps that the cell knows: all there is to see, but for add_rays() where needs_rays() says so.
+Gathered without_rays(Seen seen, uint seed) LW_MEMBER {
     Gathered light = gather_photons(seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye);
-    if (has_caustics)
-        add_caustics(seen.triangle, seen.front, seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, light);
+    float left = has_caustics ? caustics_left(seen.at) : 0.0f;
+    if (has_caustics && left > 0.0f)
+        add_caustics(seen.triangle, seen.front, left, seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye,
+                     light);
+    for (uint word = 0u; has_direct && word < cell_lamp_words(light_count); ++word)
+        add_direct(seen.at, word, false, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, seed, light);
     light.radiance += own_radiance(seen.surface, seen.front);
     return light;
 }
 
-/// True when lamps of a word have to be added to what the photons say, or a mirror to be followed.
+/// True when shadow rays have to be traced to lamps of a word, or a mirror to be followed.
 bool needs_rays(Seen seen, uint word) LW_MEMBER {
-    uint bits = 0u;
-    return (has_mirrors && is_purely_specular(seen.surface)) || (has_direct && lamps_to_add(seen.at, word, bits) != 0u);
+    return (has_mirrors && is_purely_specular(seen.surface)) || (has_direct && needs_shadow_rays(seen.at, word));
 }
 
 /// Adds the lamps of one word, and with the first word what is seen in mirrors beside the lamps' light.
@@ -53,8 +56,9 @@ void add_rays(Seen seen, uint word, uint seed, LW_INOUT(Gathered) light) LW_MEMB
     for (uint mirrors = 0u; mirrors <= (has_mirrors ? most_mirrors : 0u); ++mirrors) {
         Surface s = seen.surface;
         Gathered shown = no_light();
-        if (mirrors > 0u && word == 0u) shown = without_rays(seen);
-        if (has_direct) add_direct(seen.at, word, s, seen.n_geometric, seen.n_shading, seen.to_eye, seed, shown);
+        if (mirrors > 0u && word == 0u) shown = without_rays(seen, seed);
+        if (has_direct && has_shadow_rays)
+            add_direct(seen.at, word, true, s, seen.n_geometric, seen.n_shading, seen.to_eye, seed, shown);
         light.radiance += reflected * shown.radiance;
         if (mirrors == 0u) light.irradiance += shown.irradiance;
         if (!has_mirrors || !is_purely_specular(s)) return;
@@ -71,7 +75,7 @@ void add_rays(Seen seen, uint word, uint seed, LW_INOUT(Gathered) light) LW_MEMB
 /// All light towards `eye` from (triangle, barycentrics); illuminance, bandwidth and photons are of that place.
 Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed) LW_MEMBER {
     Seen seen = see(triangle, barycentrics, eye);
-    Gathered light = without_rays(seen);
+    Gathered light = without_rays(seen, seed);
     for (uint word = 0u; word < ray_words(light_count); ++word) add_rays(seen, word, seed, light);
     return light;
 }

@@ -13,8 +13,8 @@ namespace lw {
 namespace {
 
 constexpr std::array<char, 8> magic{'L', 'W', 'P', 'H', 'O', 'T', 'O', 'N'};
-constexpr uint32_t version = 2;
-constexpr size_t section_count = 10;
+constexpr uint32_t version = 3;
+constexpr size_t section_count = 12;
 
 /// The fixed head of the file; sections follow in this order, each `bytes` long.
 struct Header {
@@ -34,7 +34,7 @@ struct Header {
     uint32_t caustic_grids;  // the last of the grids; 0 in files of scenes without
     std::array<uint64_t, section_count> bytes;
 };
-static_assert(sizeof(Header) == 160);
+static_assert(sizeof(Header) == 176);
 constexpr size_t checked_from = offsetof(Header, scene_hash);
 
 /// Calls visit(array) for the sections in file order; Map is PhotonMap or const PhotonMap.
@@ -50,6 +50,8 @@ void for_each_section(Map& map, const Visit& visit) {
     visit(map.coverage);
     visit(map.visible_lamps);
     visit(map.irradiance);
+    visit(map.smooth_caustics);
+    visit(map.shadow_masks);
 }
 
 template <class T>
@@ -161,6 +163,22 @@ Header read_header(std::ifstream& in, const std::filesystem::path& path, uint64_
     return header;
 }
 
+/// In order, of cells and lamps that exist, only with bits of lamps to refer to them.
+void check_masks(const std::filesystem::path& path, const PhotonMap& map, const Scene& scene) {
+    if (map.shadow_masks.size() >= 1u << (32 - first_mask_shift) ||
+        (!map.shadow_masks.empty() && !map.has_visible_lamps()))
+        refuse(path, "it has more shadow masks than it may");
+    for (size_t i = 0; i < map.shadow_masks.size(); ++i) {
+        const ShadowMask& mask = map.shadow_masks[i];
+        const auto before = [](const ShadowMask& a, const ShadowMask& b) {
+            return a.cell < b.cell || (a.cell == b.cell && a.lamp < b.lamp);
+        };
+        if (mask.cell >= map.coverage.size() || mask.lamp >= scene.lights.size() || scene.lights[mask.lamp].type == light_mesh ||
+            (i > 0 && !before(map.shadow_masks[i - 1], mask)))
+            refuse(path, "shadow mask " + std::to_string(i) + " is not valid");
+    }
+}
+
 }  // namespace
 
 void save_photon_map(const std::filesystem::path& path, const PhotonMap& map) {
@@ -227,6 +245,9 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
         refuse(path, "lattices and lamp visibility do not agree");
     if (map.irradiance.size() != map.coverage.size() * scene.lights.size())
         refuse(path, "lattices and irradiance do not agree");
+    const size_t marks = map.caustic_grids > 0 && map.has_visible_lamps() ? (map.coverage.size() + 31) / 32 : 0;
+    if (map.smooth_caustics.size() != marks) refuse(path, "lattices and marks of caustics do not agree");
+    check_masks(path, map, scene);
     return map;
 }
 

@@ -57,7 +57,7 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
     const uint64_t corner = 32 + (s.uv1.empty() ? 0 : 8) + (s.colors.empty() ? 0 : 16) + (s.tangents.empty() ? 0 : 16);
     return s.triangles.size() * (3 * corner + sizeof(uvec4)) + bytes(s.texels) + m.bytes() +
-           m.coverage.size() * (sizeof(uvec4) + cell_lamp_words(uint(s.lights.size())) * sizeof(uint));
+           m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
 }
 
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map) {
@@ -134,6 +134,8 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
                                                         [](const Material& m) { return m.transmission > 0; });
     constants_[constant_has_mirrors] = !bvh.nodes.empty() && has_mirrors(scene);
     constants_[constant_has_caustics] = map.caustic_grids > 0;
+    constants_[constant_has_smooth_caustics] = !map.smooth_caustics.empty();
+    constants_[constant_has_shadow_masks] = !map.shadow_masks.empty();
     constants_[constant_has_mesh_lamps] = !scene.emitters.empty();
     constants_[constant_has_profiles] = std::any_of(scene.lights.begin(), scene.lights.end(),
                                                     [](const Light& light) { return light.type == light_profile; });
@@ -207,7 +209,8 @@ void Resident::upload_map(const PhotonMap& map) {
     upload_chunks<uint>(binding_fluxes, word, map.fluxes, "photon fluxes");
     upload_chunks<uint>(binding_directions, word, map.directions, "photon directions");
     upload_texels<uint>(binding_coverage, word, map.coverage, "coverage");
-    upload_texels<uint>(binding_cell_lamps, word, cells_ ? cells_->lamps() : std::vector<uint>(), "lamps of cells");
+    upload_texels<uint>(binding_cell_words, word, cells_ ? cells_->words() : std::vector<uint>(), "cells");
+    upload_texels<uvec4>(binding_shadow_masks, four, cells_ ? cells_->masks() : std::vector<uvec4>(), "shadow masks");
     upload_texels<uvec4>(binding_cell_light, four, std::vector<uvec4>(map.coverage.size()), "light of cells");
     cell_light_ = buffers_.size() - 1;
 }

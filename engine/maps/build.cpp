@@ -12,6 +12,8 @@
 #include "maps/packing.h"
 #include "maps/patches.h"
 #include "maps/references.h"
+#include "maps/shadow_masks.h"
+#include "maps/smooth_caustics.h"
 #include "maps/visibility.h"
 
 namespace lw {
@@ -236,21 +238,25 @@ std::vector<uint> append_grids(const Scene& scene, const Partition& partition, c
     return kept;
 }
 
-/// Lays the lattices and computes what their nodes keep. All lengths follow the largest radius R: nodes every 0.5 R, a
+/// Lays the lattices and computes what their nodes keep; returns their points. All lengths follow the largest radius R: nodes every 0.5 R, a
 /// sample every 0.03 R2 (26 under a kernel of R/2).
-void add_lattices(const Scene& scene, const RayCaster& caster, const Partition& partition,
-                  const std::vector<uint>& kept, PhotonMap& map) {
+std::vector<NodePoint> add_lattices(const Scene& scene, const RayCaster& caster, const Partition& partition,
+                                    const std::vector<uint>& kept, PhotonMap& map) {
     const float radius = map.settings.radius;
     std::vector<PatchShape> shapes;
     for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
-    const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.5f * radius, map);
+    std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.5f * radius, map);
     const std::vector<Photon> samples =
         sample_surfaces(scene, caster, partition.patches, 0.03f * radius * radius, clearance_of(radius));
     const References references = find_references({scene, samples, partition.patches, partition.shapes, partition.radii,
                                                    map.settings.neighbour_angle_deg, partition.neighbours});
-    if (!map.settings.direct_in_photons) map.visible_lamps = find_visibility(scene, caster, map, nodes);
+    if (!map.settings.direct_in_photons) {
+        map.visible_lamps = find_visibility(scene, caster, map, nodes);
+        map.shadow_masks = find_shadow_masks(scene, caster, map);
+    }
     map.coverage = find_coverage(scene, map, nodes, samples, references, kept);
     map.irradiance = find_irradiance(scene, caster, map, nodes, map.irradiance_scale);
+    return nodes;
 }
 
 }  // namespace
@@ -276,8 +282,10 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
         std::copy_if(photons.records.begin(), photons.records.end(), std::back_inserter(others),
                      [](const Photon& p) { return p.path() != path_caustic; });
     const std::vector<uint> kept = append_grids(scene, partition, caustic.empty() ? photons.records : others, map);
-    add_lattices(scene, caster, partition, kept, map);
-    if (!caustic.empty()) map.caustic_grids = uint(append_grids(scene, partition, caustic, map).size());
+    const std::vector<NodePoint> nodes = add_lattices(scene, caster, partition, kept, map);
+    if (caustic.empty()) return map;
+    map.caustic_grids = uint(append_grids(scene, partition, caustic, map).size());
+    if (map.has_visible_lamps()) add_smooth_caustics(scene, nodes, map);
     return map;
 }
 

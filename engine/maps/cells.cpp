@@ -7,57 +7,13 @@
 
 #include "base/parallel.h"
 #include "maps/packing.h"
+#include "maps/plane_maps.h"
 
 namespace lw {
 namespace {
 
 constexpr float even_distance = 12;  // steps of the lattice: light from nearer lamps bends too much between nodes
-constexpr float least_cos_of_plane = 0.9997f;  // 1.4 degrees
-constexpr float least_roughness_of_matte = 0.8f;
 constexpr float brightest_direct = 4096;  // of a record; RGB9E5 goes to 65408
-
-/// True when direct light of small lamps looks the same whether it comes from the lamp or from all sides.
-bool is_matte(const Material& m) {
-    const bool textured = m.metallic_roughness_texture.texture >= 0 || m.normal_texture.texture >= 0;
-    return !textured && m.metallic < 0.001f && (m.roughness >= least_roughness_of_matte || m.specular <= 0);
-}
-
-/// The maps that are plane and matte all over, with the height of their plane over the grid's origin.
-class PlaneMaps {
-  public:
-    PlaneMaps(const Scene& scene, const PhotonMap& map) : plane_(map.grids.size(), 1), heights_(map.grids.size(), 0) {
-        std::vector<char> met(map.grids.size(), 0);
-        for (size_t side = 0; side < std::min(map.triangle_maps.size(), 2 * scene.triangles.size()); ++side) {
-            const uint m = map.triangle_maps[side];
-            if (m == no_map || !plane_[m]) continue;
-            const float first = height_of(scene, map.grids[m], scene.triangles[side / 2].x);
-            if (!met[m]) heights_[m] = first;
-            met[m] = 1;
-            plane_[m] =
-                is_matte(scene.material_of(uint(side / 2))) && lies_in(scene, map.grids[m], side / 2, heights_[m]);
-        }
-    }
-    bool contain(size_t m) const { return plane_[m] != 0; }
-    float height(size_t m) const { return heights_[m]; }
-
-  private:
-    static float height_of(const Scene& scene, const SurfaceGrid& grid, uint vertex) {
-        return dot(scene.positions[vertex] - grid.origin, grid.normal);
-    }
-    static bool lies_in(const Scene& scene, const SurfaceGrid& grid, size_t triangle, float height) {
-        const float most = 0.02f * std::max(grid.lattice.step.x, grid.lattice.step.y);
-        for (int c = 0; c < 3; ++c) {
-            const uint vertex = scene.triangles[triangle][c];
-            if (std::abs(dot(scene.normals[vertex], grid.normal)) < least_cos_of_plane ||
-                std::abs(height_of(scene, grid, vertex) - height) > most)
-                return false;
-        }
-        return true;
-    }
-
-    std::vector<char> plane_;
-    std::vector<float> heights_;
-};
 
 /// lux at a point facing `normal` from a lamp of intensity 1, if nothing stands between; falloff as
 /// KHR_lights_punctual.
@@ -80,9 +36,7 @@ std::array<uint, 4> corners_of(const SurfaceLattice& lattice, uint node) {
 
 vec3 node_position(const SurfaceGrid& grid, uint node, float height) {
     const uint i = node - grid.lattice.first_node;
-    const vec2 uv =
-        grid.lattice.low + vec2(float(i % grid.lattice.columns), float(i / grid.lattice.columns)) * grid.lattice.step;
-    return grid.origin + uv.x * grid.u_axis + uv.y * grid.v_axis + height * grid.normal;
+    return point_on_lattice(grid, vec2(float(i % grid.lattice.columns), float(i / grid.lattice.columns)), height);
 }
 
 /// Calls body(node) for the lower left node of each cell.
@@ -95,28 +49,54 @@ void for_cells(const SurfaceLattice& lattice, const Body& body) {
 }  // namespace
 
 CellLight::CellLight(const Scene& scene, const PhotonMap& map)
-    : scene_(scene), map_(map), lamp_count_(uint(scene.lights.size())) {
+    : scene_(scene),
+      map_(map),
+      lamp_count_(uint(scene.lights.size())),
+      marks_(map.has_marks() ? 1 : 0),
+      stride_(cell_words(lamp_count_, map.has_marks())) {
     if (!map.has_visible_lamps()) return;
-    lamps_.assign(map.coverage.size() * cell_lamp_words(lamp_count_), 0);
+    words_.assign(map.coverage.size() * stride_, 0);
     for (uint lamp = 0; lamp < lamp_count_; ++lamp)
         if (scene.lights[lamp].type != light_mesh && scene.lights[lamp].type != light_profile)
             punctual_.push_back(lamp);
     direct_.assign(punctual_.size(), std::vector<float>(map.coverage.size(), 0));
     const PlaneMaps planes(scene, map);
+    parallel_for(map.grids.size(), [&](size_t m) { describe_cells(map.grids[m]); });
+    for (const ShadowMask& mask : map.shadow_masks) describe(mask);
     parallel_for(map.grids.size(), [&](size_t m) {
-        describe_cells(map.grids[m]);
-        if (planes.contain(m)) add_direct_of_punctuals(map.grids[m], planes.height(m));
+        if (planes.is_matte_plane(m)) add_direct_of_punctuals(map.grids[m], planes.height(m));
     });
     for (const std::vector<float>& lamp : direct_)
         for (float e : lamp) brightest_direct_ = std::max(brightest_direct_, e);
 }
 
+uint& CellLight::lamp_word(size_t cell, uint lamp) {
+    return words_[cell * stride_ + marks_ + cell_lamp_word(lamp)];
+}
+
 void CellLight::describe_cells(const SurfaceGrid& grid) {
     for_cells(grid.lattice, [&](uint node) {
         for (uint lamp = 0; lamp < lamp_count_; ++lamp)
-            lamps_[node * cell_lamp_words(lamp_count_) + cell_lamp_word(lamp)] |= describe(grid.lattice, node, lamp)
-                                                                                  << cell_lamp_shift(lamp);
+            lamp_word(node, lamp) |= describe(grid.lattice, node, lamp) << cell_lamp_shift(lamp);
+        const std::array<uint, 4> corners = corners_of(grid.lattice, node);
+        for (uint c = 0; c < 4; ++c)
+            if (map_.holds_caustics(corners[c])) words_[node * stride_] |= 1u << c;
     });
+}
+
+/// A mask that is lit or dark all over says so in the lamp's bits; the others are kept.
+void CellLight::describe(const ShadowMask& mask) {
+    uint& word = lamp_word(mask.cell, mask.lamp);
+    const uint shift = cell_lamp_shift(mask.lamp);
+    const bool dark = (mask.lit_low | mask.lit_high) == 0;
+    if (dark || ((mask.lit_low & mask.lit_high) == ~0u && unpack_rgb9e5(mask.tint) == vec3(1))) {
+        word &= ~((dark ? some_visible : some_hidden) << shift);
+        return;
+    }
+    if ((words_[size_t(mask.cell) * stride_] >> first_mask_shift) == 0)
+        words_[size_t(mask.cell) * stride_] |= uint(masks_.size()) << first_mask_shift;
+    word |= has_shadow_mask << shift;
+    masks_.emplace_back(mask.lit_low, mask.lit_high, mask.tint, 0);
 }
 
 uint CellLight::describe(const SurfaceLattice& lattice, uint node, uint lamp) const {
@@ -148,9 +128,9 @@ void CellLight::add_direct_of_punctuals(const SurfaceGrid& grid, float height) {
     const SurfaceLattice& lattice = grid.lattice;
     for (size_t i = 0; i < punctual_.size(); ++i) {
         const Light& light = scene_.lights[punctual_[i]];
-        const uint word = cell_lamp_word(punctual_[i]), shift = cell_lamp_shift(punctual_[i]);
+        const uint shift = cell_lamp_shift(punctual_[i]);
         for_cells(lattice, [&](uint node) {
-            uint& bits = lamps_[node * cell_lamp_words(lamp_count_) + word];
+            uint& bits = lamp_word(node, punctual_[i]);
             const bool all_visible = ((bits >> shift) & (some_visible | some_hidden)) == some_visible;
             if (!all_visible || !is_even(grid, node, punctual_[i], height)) return;
             bits |= in_cell_light << shift;
@@ -161,8 +141,7 @@ void CellLight::add_direct_of_punctuals(const SurfaceGrid& grid, float height) {
 }
 
 bool CellLight::holds(size_t cell, uint lamp) const {
-    return (lamps_[cell * cell_lamp_words(lamp_count_) + cell_lamp_word(lamp)] >> cell_lamp_shift(lamp)) &
-           in_cell_light;
+    return (words_[cell * stride_ + marks_ + cell_lamp_word(lamp)] >> cell_lamp_shift(lamp)) & in_cell_light;
 }
 
 float CellLight::sum(std::span<const vec3> weights, std::vector<uvec4>& light) const {

@@ -14,22 +14,27 @@ class CellLight {
     /// Finds which lamps the light of each cell holds. Scene and map must outlive it.
     CellLight(const Scene& scene, const PhotonMap& map);
 
-    /// What each cell knows of each lamp, cell_lamp_words() words per cell; empty when photons hold all light.
-    const std::vector<uint>& lamps() const { return lamps_; }
+    /// What each cell knows, cell_words() words: its marks, and of each lamp; empty when photons hold all light.
+    const std::vector<uint>& words() const { return words_; }
+    /// The masks that cells refer to: lit points (low, high), tint (RGB9E5), nothing.
+    const std::vector<uvec4>& masks() const { return masks_; }
     /// The corners' irradiance, four RGB9E5 per cell of lux x the returned scale; weights: RGB power of each lamp.
     float sum(std::span<const vec3> weights, std::vector<uvec4>& light) const;
 
   private:
     bool holds(size_t cell, uint lamp) const;
+    uint& lamp_word(size_t cell, uint lamp);
     void describe_cells(const SurfaceGrid& grid);
+    void describe(const ShadowMask& mask);
     uint describe(const SurfaceLattice& lattice, uint node, uint lamp) const;
     void add_direct_of_punctuals(const SurfaceGrid& grid, float height);
     bool is_even(const SurfaceGrid& grid, uint node, uint lamp, float height) const;
 
     const Scene& scene_;
     const PhotonMap& map_;
-    uint lamp_count_;
-    std::vector<uint> lamps_;
+    uint lamp_count_, marks_, stride_;
+    std::vector<uint> words_;
+    std::vector<uvec4> masks_;
     std::vector<uint> punctual_;              // lamps whose light cells may hold
     std::vector<std::vector<float>> direct_;  // of each of them: lux at the nodes for intensity 1, unshadowed
     float brightest_direct_ = 1e-20f;

@@ -32,6 +32,8 @@ class PhotonEstimator : public SurfaceReader {
           max_radius(map.settings.radius),
           inverse_flux_scale(1.0f / map.flux_scale),
           has_caustics(map.caustic_grids > 0),
+          has_smooth_caustics(!map.smooth_caustics.empty()),
+          has_shadow_masks(!map.shadow_masks.empty()),
           triangle_count_(uint(scene.triangles.size())),
           has_directions(map.has_directions()),
           has_coverage(map.has_coverage()),
@@ -50,7 +52,8 @@ class PhotonEstimator : public SurfaceReader {
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
         if (map.irradiance.empty()) return;
         const CellLight cells(scene, map);
-        cell_lamps_ = cells.lamps();
+        cell_words_ = cells.words();
+        shadow_masks_ = cells.masks();
         if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(light_weights, cell_light_);
     }
 
@@ -68,7 +71,8 @@ class PhotonEstimator : public SurfaceReader {
     Light light_at(uint i) const { return lights[i]; }
     uint node_coverage(uint node) const { return map_.coverage[node]; }
     uvec4 cell_light(uint cell) const { return cell_light_[cell]; }
-    uint cell_lamps(uint word) const { return cell_lamps_[word]; }
+    uint cell_word(uint word) const { return cell_words_[word]; }
+    uvec4 shadow_mask(uint i) const { return shadow_masks_[i]; }
     uint map_of(uint triangle, bool front) const { return triangle_maps[2 * triangle + (front ? 0 : 1)]; }
     uint caustic_map_of(uint triangle, bool front) const {
         return triangle_maps[2 * (size_t(triangle_count_) + triangle) + (front ? 0 : 1)];
@@ -105,7 +109,7 @@ class PhotonEstimator : public SurfaceReader {
     uint neighbours;
     float max_radius;
     float inverse_flux_scale;
-    bool has_caustics;
+    bool has_caustics, has_smooth_caustics, has_shadow_masks;
     uint triangle_count_;
     bool has_directions, has_coverage;
     bool has_visible_lamps;
@@ -121,7 +125,8 @@ class PhotonEstimator : public SurfaceReader {
     bool has_mirrors;
     bool has_direct;
     std::vector<uvec4> cell_light_;  // cached mode only
-    std::vector<uint> cell_lamps_;
+    std::vector<uint> cell_words_;
+    std::vector<uvec4> shadow_masks_;
     static constexpr SurfaceGrid no_grid_{};
     float inverse_irradiance_scale = 1;
 };

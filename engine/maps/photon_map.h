@@ -38,15 +38,24 @@ struct PhotonMap {
         visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all light
     std::vector<uint> irradiance;  // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
     float irradiance_scale = 1;
+    std::vector<uint> smooth_caustics;  // a bit per node: its irradiance holds caustics; empty without caustics, and when
+                                        // photons hold all light
+    std::vector<ShadowMask> shadow_masks;  // in the order of cells and lamps; empty when photons hold all light
 
     /// All arrays together; the same in the file and on the device.
     uint64_t bytes() const {
         const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
-        return size(triangle_maps, grids, cell_starts, places, fluxes, directions, coverage, visible_lamps, irradiance);
+        return size(triangle_maps, grids, cell_starts, places, fluxes, directions, coverage, visible_lamps, irradiance,
+                    smooth_caustics, shadow_masks);
     }
 
     uint sides_per_triangle() const { return caustic_grids > 0 ? 4 : 2; }
     bool has_directions() const { return !directions.empty(); }
+    bool holds_caustics(size_t node) const {
+        return !smooth_caustics.empty() && ((smooth_caustics[node / 32] >> (node % 32)) & 1u);
+    }
+    /// True when cells know more than their lamps, see cell_words().
+    bool has_marks() const { return !smooth_caustics.empty() || !shadow_masks.empty(); }
     bool has_coverage() const { return !coverage.empty(); }
     bool has_visible_lamps() const { return !visible_lamps.empty(); }
 };

@@ -109,6 +109,9 @@ TEST_F(MapFile, SignedMapsThatLeadOutOfTheirArraysAreRefused) {
     refused([](PhotonMap& m) { m.coverage.clear(), m.visible_lamps.clear(), m.irradiance.clear(); });
     refused([](PhotonMap& m) { m.visible_lamps.pop_back(); });
     refused([](PhotonMap& m) { m.irradiance.pop_back(); });
+    refused([](PhotonMap& m) { m.shadow_masks.push_back({uint(m.coverage.size()), 0, 1, 0, 0}); });
+    refused([](PhotonMap& m) { m.shadow_masks.push_back({0, uint(m.emitted.size()), 1, 0, 0}); });
+    refused([](PhotonMap& m) { m.shadow_masks.assign(2, {0, 0, 1, 0, 0}); });
     refused([](PhotonMap& m) { m.irradiance.clear(); });
     refused([](PhotonMap& m) { m.places.pop_back(); });
     refused([](PhotonMap& m) { m.places[0].h_light_and_path |= light_mask << 16; });
@@ -136,6 +139,9 @@ TEST_F(MapFile, WithCausticsRoundTripsAndIsRefusedWhenTheirGridsAreMixedUp) {
         save_photon_map(path, bad);
         EXPECT_THROW(load_photon_map(path, glass), Error);
     };
+    EXPECT_EQ(got.smooth_caustics, good.smooth_caustics);
+    ASSERT_FALSE(good.smooth_caustics.empty());
+    refused([](PhotonMap& m) { m.smooth_caustics.pop_back(); });
     refused([](PhotonMap& m) { --m.caustic_grids; });
     refused([](PhotonMap& m) { m.triangle_maps[0] = uint(m.grids.size()) - 1; });
     refused([](PhotonMap& m) { m.triangle_maps.back() = 0; });

@@ -82,7 +82,7 @@ struct FloorLight {
                 const Surface s = estimator.surface_at(hit->triangle, hit->barycentrics);
                 Gathered sum{};
                 const auto place = estimator.place_on(estimator.map_of(hit->triangle, true), s.position);
-                estimator.add_caustics(hit->triangle, true, place, s, s.geometric_normal, s.normal, vec3(0, 1, 0), sum);
+                estimator.add_caustics(hit->triangle, true, 1, place, s, s.geometric_normal, s.normal, vec3(0, 1, 0), sum);
                 got[size_t(z / fine * squares + x / fine)] += luminance(sum.irradiance) / (fine * fine);
             }
     }
@@ -112,6 +112,54 @@ TEST(CausticMap, ShowsTheFocusOfAGlassBall) {
     for (double e : light.truth) lit_sum += e >= 0.05 * brightest ? e : 0;
     EXPECT_LT(std::sqrt(error2 / double(lit)) / (lit_sum / double(lit)), 0.1);
     EXPECT_NEAR(got / sum, 1, 0.03);  // the kernels on the dark side of a sharp rim reach into the light
+}
+
+/// The same map with all caustics left to the pixels.
+PhotonMap without_caustics_in_cells(const Baked& baked) {
+    Photons others = baked.photons;
+    std::erase_if(others.records, [](const Photon& p) { return p.path() == path_caustic; });
+    BakeSettings settings = baked.map.settings;  // with the radius found, so that the lattices are the same
+    const PhotonMap plain = build_photon_map(baked.scene, baked.caster, others, settings);
+    PhotonMap map = baked.map;
+    map.smooth_caustics.clear();
+    map.irradiance = plain.irradiance;
+    map.irradiance_scale = plain.irradiance_scale;
+    return map;
+}
+
+TEST(CausticMap, TheLightOfCellsHoldsSmoothCausticsAsThePixelsGatherThem) {
+    const Baked baked("glass_sphere.gltf", 300000);
+    const PhotonMap gathered = without_caustics_in_cells(baked);
+    ASSERT_EQ(gathered.irradiance.size(), baked.map.irradiance.size());
+    std::vector<vec3> weights;
+    for (const Light& light : baked.scene.lights) weights.push_back(light.intensity);
+    const PhotonEstimator held(baked.scene, baked.map, weights, {}), full(baked.scene, gathered, weights, {});
+    double sum = 0, error = 0, error2 = 0, caustic = 0;
+    int points = 0, sharp = 0, smooth = 0;
+    const float side = 0.5f;
+    constexpr int across = 60;
+    for (int i = 0; i < across * across; ++i) {  // the floor under the ball, focus and surroundings
+        const vec3 at(side * (float(i % across) / across - 0.5f), 0.05f, side * (float(i / across) / across - 0.5f));
+        const auto hit = baked.caster.nearest(at - vec3(baked.scene.origin), vec3(0, -1, 0));
+        ASSERT_TRUE(hit);
+        const Surface s = held.surface_at(hit->triangle, hit->barycentrics);
+        const auto seen = held.see(hit->triangle, hit->barycentrics, s.position + s.geometric_normal);
+        if (seen.at.map == no_map || held.caustic_map_of(hit->triangle, seen.front) == no_map) continue;
+        const float left = held.caustics_left(seen.at);
+        const double got = luminance(held.without_rays(seen, 1).irradiance),
+                     wanted = luminance(full.without_rays(seen, 1).irradiance);
+        Gathered own = held.no_light();
+        full.add_caustics(hit->triangle, seen.front, 1, seen.at, s, seen.n_geometric, seen.n_shading, seen.to_eye, own);
+        caustic += luminance(own.irradiance);
+        ++points, sharp += left == 1, smooth += left == 0;
+        sum += wanted, error += got - wanted, error2 += (got - wanted) * (got - wanted);
+    }
+    ASSERT_GT(sharp, 0);
+    ASSERT_GT(smooth, points / 4);
+    EXPECT_GT(caustic, 0.1 * sum);
+    std::printf("%d sharp, %d smooth of %d points; bias %g, rmse %g\n", sharp, smooth, points, error / sum, std::sqrt(error2 / points) / (sum / points));
+    EXPECT_LT(std::abs(error), 0.002 * sum);
+    EXPECT_LT(std::sqrt(error2 / points), 0.02 * sum / points);
 }
 
 }  // namespace

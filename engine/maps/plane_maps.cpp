@@ -1,0 +1,46 @@
+#include "maps/plane_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lw {
+namespace {
+
+constexpr float least_cos_of_plane = 0.9997f;  // 1.4 degrees
+constexpr float least_roughness_of_matte = 0.8f;
+
+/// True when direct light of small lamps looks the same whether it comes from the lamp or from all sides.
+bool is_matte(const Material& m) {
+    const bool textured = m.metallic_roughness_texture.texture >= 0 || m.normal_texture.texture >= 0;
+    return !textured && m.metallic < 0.001f && (m.roughness >= least_roughness_of_matte || m.specular <= 0);
+}
+
+}  // namespace
+
+PlaneMaps::PlaneMaps(const Scene& scene, const PhotonMap& map)
+    : plane_(map.grids.size(), 1), matte_(map.grids.size(), 1), heights_(map.grids.size(), -1e30f) {
+    std::vector<float> lowest(map.grids.size(), 1e30f);
+    for (size_t side = 0; side < std::min(map.triangle_maps.size(), 2 * scene.triangles.size()); ++side) {
+        const uint m = map.triangle_maps[side];
+        if (m == no_map) continue;
+        const SurfaceGrid& grid = map.grids[m];
+        if (matte_[m] && !is_matte(scene.material_of(uint(side / 2)))) matte_[m] = 0;
+        for (int c = 0; c < 3; ++c) {
+            const uint vertex = scene.triangles[side / 2][c];
+            const float height = dot(scene.positions[vertex] - grid.origin, grid.normal);
+            heights_[m] = std::max(heights_[m], height), lowest[m] = std::min(lowest[m], height);
+            if (std::abs(dot(scene.normals[vertex], grid.normal)) < least_cos_of_plane) matte_[m] = 0;
+        }
+    }
+    for (size_t m = 0; m < map.grids.size(); ++m) {
+        const vec2 step = map.grids[m].lattice.step;
+        plane_[m] = heights_[m] - lowest[m] <= 0.02f * std::max(step.x, step.y);
+    }
+}
+
+vec3 point_on_lattice(const SurfaceGrid& grid, vec2 cells, float height) {
+    const vec2 uv = grid.lattice.low + cells * grid.lattice.step;
+    return grid.origin + uv.x * grid.u_axis + uv.y * grid.v_axis + height * grid.normal;
+}
+
+}  // namespace lw

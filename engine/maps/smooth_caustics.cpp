@@ -1,0 +1,95 @@
+#include "maps/smooth_caustics.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "maps/estimate.h"
+#include "maps/packing.h"
+
+namespace lw {
+namespace {
+
+constexpr float brightest_record = 32768;  // RGB9E5 goes to 65408
+
+float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
+
+/// The text of shaders/caustics.glsl at lattice nodes, lamp by lamp.
+class CausticNodes : public PhotonEstimator {
+  public:
+    CausticNodes(const Scene& scene, const PhotonMap& map, const std::vector<NodePoint>& nodes)
+        : PhotonEstimator(scene, map, none_, {gather_mode_smooth}), nodes_(nodes), lamps_(uint(scene.lights.size())) {}
+
+    /// Adds the caustics of a node of map m to the records; false, and nothing added, where they are too sharp for it.
+    bool add(uint m, uint node, std::vector<uint>& records) const {
+        if (!nodes_[node].exists()) return false;
+        const Surface s = surface_at(nodes_[node].triangle, nodes_[node].barycentrics);
+        const bool front = dot(s.geometric_normal, map_.grids[m].normal) >= 0;
+        const uint own = caustic_map_of(nodes_[node].triangle, front);
+        if (own == no_map) return true;
+        const SurfaceGrid& grid = map_.grids[own];
+        const SurfaceLattice& lattice = map_.grids[m].lattice;
+        const vec3 local = position_in_grid(grid, s.position);
+        const float radius = caustic_radius(grid, local);
+        const std::vector<vec3> light = light_at_node(m, node, grid, local, radius);
+        if (radius < 2 * std::max(lattice.step.x, lattice.step.y) && has_any(light)) return false;
+        for (uint lamp = 0; lamp < lamps_; ++lamp)
+            if (largest(light[lamp] + unpack_rgb9e5(records[record(lamp, node)])) > brightest_record) return false;
+        for (uint lamp = 0; lamp < lamps_; ++lamp)
+            if (largest(light[lamp]) > 0)
+                records[record(lamp, node)] = pack_rgb9e5(unpack_rgb9e5(records[record(lamp, node)]) + light[lamp]);
+        return true;
+    }
+
+  private:
+    size_t record(uint lamp, uint node) const { return size_t(lamp) * nodes_.size() + node; }
+
+    static bool has_any(const std::vector<vec3>& light) {
+        return std::any_of(light.begin(), light.end(), [](const vec3& e) { return largest(e) > 0; });
+    }
+
+    /// As records keep it: lux per unit intensity x irradiance_scale, per lamp.
+    std::vector<vec3> light_at_node(uint m, uint node, const SurfaceGrid& grid, vec3 local, float radius) const {
+        std::vector<vec3> light(lamps_, vec3(0));
+        const float r2 = radius * radius, wide = std::min(4 * radius / grid.radius, 1.0f);
+        const float covered = unpack_coverage(map_.coverage[node], radius / map_.grids[m].radius);
+        const float share = 2 / (lw_pi * r2) * inverse_flux_scale * map_.irradiance_scale /
+                            (1 + wide * (std::max(covered, least_coverage) - 1));
+        const ivec2 low = cell_of(local - vec3(radius, radius, 0), grid),
+                    high = cell_of(local + vec3(radius, radius, 0), grid);
+        for (int y = std::max(low.y, 0); y <= std::min(high.y, int(grid.rows) - 1); ++y) {
+            const uvec2 span = row_span(grid, low.x, high.x, y);
+            for (uint p = span.x; p < span.y; ++p) {
+                const PhotonPlace place = photon_place(p);
+                const vec3 d = place_in_grid(place, grid) - local;
+                const float d2 = dot(d, d);
+                if (d2 < r2 && on_same_surface(d.z, d2, max_radius))
+                    light[light_of(place)] += unpack_rgb9e5(photon_flux(p)) * (share * (1 - d2 / r2));
+            }
+        }
+        return light;
+    }
+
+    static inline const std::vector<vec3> none_;
+    const std::vector<NodePoint>& nodes_;
+    uint lamps_;
+};
+
+}  // namespace
+
+void add_smooth_caustics(const Scene& scene, const std::vector<NodePoint>& nodes, PhotonMap& map) {
+    std::vector<uint> records = std::move(map.irradiance);  // the estimator needs no light of cells
+    map.irradiance.clear();
+    const CausticNodes caustics(scene, map, nodes);
+    std::vector<char> smooth(nodes.size(), 0);
+    parallel_for(map.grids.size() - map.caustic_grids, [&](size_t m) {
+        const SurfaceLattice& lattice = map.grids[m].lattice;
+        for (uint n = lattice.first_node; n < lattice.first_node + lattice.columns * lattice.rows; ++n)
+            smooth[n] = caustics.add(uint(m), n, records);
+    });
+    map.irradiance = std::move(records);
+    map.smooth_caustics.assign((nodes.size() + 31) / 32, 0);
+    for (size_t n = 0; n < nodes.size(); ++n)
+        if (smooth[n]) map.smooth_caustics[n / 32] |= 1u << (n % 32);
+}
+
+}  // namespace lw
