@@ -10,6 +10,7 @@ namespace lw {
 namespace {
 
 constexpr float brightest_record = 32768;  // RGB9E5 goes to 65408
+constexpr float least_steps = 1.5f;        // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
@@ -31,7 +32,7 @@ class CausticNodes : public PhotonEstimator {
         const vec3 local = position_in_grid(grid, s.position);
         const float radius = caustic_radius(grid, local);
         const std::vector<vec3> light = light_at_node(m, node, grid, local, radius);
-        if (radius < 2 * std::max(lattice.step.x, lattice.step.y) && has_any(light)) return false;
+        if (radius < least_steps * std::max(lattice.step.x, lattice.step.y) && has_any(light)) return false;
         for (uint lamp = 0; lamp < lamps_; ++lamp)
             if (largest(light[lamp] + unpack_rgb9e5(records[record(lamp, node)])) > brightest_record) return false;
         for (uint lamp = 0; lamp < lamps_; ++lamp)
