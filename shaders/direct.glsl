@@ -2,7 +2,7 @@
 // emissive mesh; with shadow_rays = 0 none, and shadows as sharp as the lattice. One text for C++ and GLSL. The including
 // scope provides what gather.glsl and rays.glsl need, the array emitters, the functions light_at,
 // light_weight, profile_value, cell_lamps, and the constants has_mesh_lamps, has_profiles, has_emissive_textures,
-// has_visible_lamps, has_shadow_rays, light_count,
+// has_visible_lamps, has_shadow_rays, has_followed, light_count,
 // shadow_rays, ray_epsilon, scene_size. Written for devices that run both sides of a branch: one place that traces.
 
 /// Light that would arrive at a point from one place of a lamp at unit intensity, if nothing stood between.
@@ -10,6 +10,7 @@ struct LightSample {
     vec3 irradiance;  // on a plane facing the light
     vec3 to_light;    // unit
     float far;        // m
+    float pdf;        // solid angle; 0 for points and suns
 };
 
 /// Point, spot or directional lamp; falloff as KHR_lights_punctual.
@@ -18,6 +19,7 @@ LightSample sample_punctual(Light lamp, vec3 position) LW_MEMBER {
     result.irradiance = vec3(1.0f);
     result.to_light = -lamp.direction;
     result.far = scene_size;
+    result.pdf = 0.0f;
     if (lamp.type == light_directional) return result;
     vec3 path = lamp.position - position;
     float d2 = max(dot(path, path), 1e-30f);
@@ -49,6 +51,12 @@ uint pick_emitter(Light lamp, float u, LW_INOUT(float) within) LW_MEMBER {
     return emitters[low].triangle;
 }
 
+/// Solid-angle density with which a point of a mesh lamp is picked that is met from `distance` at `cosine` to its normal.
+float point_pdf(Light lamp, float distance, float cosine) LW_MEMBER {
+    float area = emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below;
+    return distance * distance / (area * max(abs(cosine), 1e-6f));
+}
+
 /// One point of a mesh lamp, uniform by area, standing for all of it: E = L A cos(theta') / d^2.
 LightSample sample_mesh(Light lamp, vec3 position, vec2 u) LW_MEMBER {
     float within = 0.0f;
@@ -69,8 +77,12 @@ LightSample sample_mesh(Light lamp, vec3 position, vec2 u) LW_MEMBER {
     if ((material.flags & material_double_sided) != 0u) cos_emitted = abs(cos_emitted);
     float area = emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below;
     vec3 emitted = material.emissive;
-    if (has_emissive_textures) emitted = surface_at(triangle, barycentrics).emissive;
+    if (has_emissive_textures || has_alpha) {
+        Surface there = surface_at(triangle, barycentrics);
+        emitted = there.emissive * opacity_at(triangle, there);  // holes do not glow
+    }
     result.irradiance = emitted / max(lamp.intensity, vec3(1e-20f)) * (area * max(cos_emitted, 0.0f) / d2);
+    result.pdf = point_pdf(lamp, result.far, cos_emitted);
     return result;
 }
 
@@ -88,11 +100,33 @@ float visible_part(uint bits, vec2 f) LW_MEMBER {
     return mix(mix(sees.x, sees.y, f.x), mix(sees.z, sees.w, f.x), f.y);
 }
 
+/// What a light sample counts beside a ray along the specular lobe that might meet the same lamp (power heuristic, Veach 1997).
+float share_of_sample(Surface s, vec3 n_shading, vec3 to_view, LightSample light) LW_MEMBER {
+    float by_samples = float(max(shadow_rays, 1u)) * light.pdf;
+    float by_ray = lobe_pdf(s, n_shading, to_view, light.to_light);
+    return by_samples * by_samples / max(by_samples * by_samples + by_ray * by_ray, 1e-30f);
+}
+
+/// Light of a point or sun from behind a rough sheet or volume.
+vec3 transmitted_light(Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LightSample light, vec3 incoming) LW_MEMBER {
+    vec3 f = eval_btdf(s, n_shading, to_view, light.to_light) * max(-dot(n_shading, light.to_light), 0.0f);
+    if (has_shadow_rays && max(f.x, max(f.y, f.z)) > 0.0f)
+        f *= shadow_ray(s.position - n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
+    return incoming * f;
+}
+
+/// True where light of points behind a surface spreads to the viewer.
+bool shows_points_behind(Surface s) LW_MEMBER {
+    return has_followed && has_transmission && s.transmission > 0.0f && !transmits_smoothly(s);
+}
+
 /// Adds the light of lamp `i`, of which the cell around knows `bits`.
 void add_lamp(MapPlace at, uint i, uint bits, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
               LW_INOUT(Gathered) sum) LW_MEMBER {
     Light lamp = light_at(i);
     bool mesh = lamp.type == light_mesh;
+    bool beside_rays = leaves_lobe_out(s) && mesh;  // of its lobe, rays see the other part
+    bool lobe_alone = gather_mode == gather_mode_cached && (bits & in_cell_light) != 0u;
     uint seen = bits & (some_visible | some_hidden);
     vec3 weight = light_weight(i);
     if (!has_shadow_rays && seen != 0u) weight *= visible_part(bits, at.f);
@@ -105,22 +139,30 @@ void add_lamp(MapPlace at, uint i, uint bits, Surface s, vec3 n_geometric, vec3 
             light = sample_mesh(lamp, s.position, fract(start + float(j) * vec2(0.754877666f, 0.569840291f)));
         float cos_geometric = dot(n_geometric, light.to_light);
         vec3 incoming = weight * light.irradiance / float(samples);
+        if (shows_points_behind(s) && !mesh && cos_geometric < 0.0f)
+            sum.radiance += transmitted_light(s, n_geometric, n_shading, to_view, light, incoming);
         if (cos_geometric <= 0.0f || max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) continue;
         if (has_shadow_rays && seen != some_visible)
             incoming *= shadow_ray(s.position + n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
-        sum.irradiance += incoming * cos_geometric;
-        sum.radiance += incoming * max(dot(n_shading, light.to_light), 0.0f) *
-                        eval_brdf(s, n_shading, to_view, light.to_light, false);
+        BrdfParts f = brdf_parts(s, n_shading, to_view, light.to_light);
+        if (beside_rays) f.specular *= share_of_sample(s, n_shading, to_view, light);
+        if (lobe_alone) f.diffuse = vec3(0.0f);
+        if (!lobe_alone) sum.irradiance += incoming * cos_geometric;
+        sum.radiance += incoming * max(dot(n_shading, light.to_light), 0.0f) * (f.diffuse + f.specular);
     }
 }
 
+/// True for a lobe, neither mirror nor wide, whose reflection of mesh lamps is sampled at the lamps too.
+bool samples_lobe(Surface s) LW_MEMBER { return leaves_lobe_out(s) && s.roughness * s.roughness >= smallest_alpha; }
+
 /// One bit per lamp of a word of a cell, at its lowest: set for those a pixel has to add. Hidden ones are skipped, and in
-/// the cached mode those that the light of the cell holds.
-uint lamps_to_add(MapPlace at, uint word, LW_INOUT(uint) bits) LW_MEMBER {
+/// the cached mode those that the light of the cell holds, unless a lobe is to show them.
+uint lamps_to_add(MapPlace at, uint word, Surface s, LW_INOUT(uint) bits) LW_MEMBER {
     bits = 0u;
     if (has_visible_lamps && at.map != no_map) bits = cell_lamps(at.cell * cell_lamp_words(light_count) + word);
     uint skipped = (bits >> 1) & ~bits;
-    if (gather_mode == gather_mode_cached) skipped |= bits >> 2;
+    if (shows_points_behind(s)) skipped = 0u;
+    if (gather_mode == gather_mode_cached && !samples_lobe(s)) skipped |= bits >> 2;
     uint left = light_count - word * cell_lamps_per_word;
     uint all = left < cell_lamps_per_word ? (1u << (8u * left)) - 1u : 0xffffffffu;
     return 0x01010101u & ~skipped & all;
@@ -131,7 +173,7 @@ uint lamps_to_add(MapPlace at, uint word, LW_INOUT(uint) bits) LW_MEMBER {
 void add_direct(MapPlace at, uint word, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
     uint bits = 0u;
-    uint todo = lamps_to_add(at, word, bits);
+    uint todo = lamps_to_add(at, word, s, bits);
     while (todo != 0u) {
         uint shift = uint(findLSB(todo));
         todo &= todo - 1u;

@@ -64,7 +64,7 @@ LW_CONST uint in_cell_light = 4u;
 LW_CONST uint corner_sees = 16u;  // << 0 to 3: corner (0, 0), (1, 0), (0, 1), (1, 1)
 LW_CONST uint cell_lamps_per_word = 4u;
 LW_INLINE uint cell_lamp_words(uint lamps) { return (lamps + cell_lamps_per_word - 1u) / cell_lamps_per_word; }
-/// Words that rays are traced for: one even without lamps, for mirrors.
+/// Words that rays are traced for.
 LW_INLINE uint ray_words(uint lamps) { return max(cell_lamp_words(lamps), 1u); }
 LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
 LW_INLINE uint cell_lamp_shift(uint lamp) { return 8u * (lamp % cell_lamps_per_word); }
@@ -75,8 +75,8 @@ struct PhotonPlace {
     uint h_light_and_path;  // low 16: height step; high 16: light | path << 14
 };
 
-/// Mirrors that a view ray follows one after the other.
-LW_CONST uint most_mirrors = 4u;
+/// Specular lobes of surfaces smoother than this glTF roughness are followed by rays; see docs/decisions/0007.
+LW_CONST float widest_followed_roughness = 0.75f;
 
 /// How photons become light.
 LW_CONST uint gather_mode_exact = 0u;   // the k nearest photons, with a heap: the paper's way

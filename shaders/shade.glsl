@@ -1,6 +1,5 @@
-// What a view ray brings back from the surface it meets, mirrors followed. One text for C++ and GLSL; needs gather.glsl,
-// caustics.glsl, rays.glsl, direct.glsl, the functions map_of, lamp_factor and the constants has_caustics, has_direct,
-// has_mirrors.
+// What a surface shows to an eye, and how photons and lamps add up to it. One text for C++ and GLSL; needs gather.glsl,
+// caustics.glsl, rays.glsl, direct.glsl, the functions map_of, lamp_factor and the constants has_caustics, has_direct.
 
 /// A surface as the eye sees it.
 struct Seen {
@@ -32,46 +31,21 @@ vec3 own_radiance(Surface s, bool front) LW_MEMBER {
     return s.emissive * (s.light >= 0 ? lamp_factor(uint(s.light)) : vec3(1.0f));
 }
 
-/// Photons and glow: all there is to see, but for add_rays() where needs_rays() says so.
-Gathered without_rays(Seen seen) LW_MEMBER {
+/// Light of photons; what glows and what rays bring comes on top.
+Gathered estimate_at(Seen seen) LW_MEMBER {
     Gathered light = gather_photons(seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye);
     if (has_caustics)
         add_caustics(seen.triangle, seen.front, seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, light);
-    light.radiance += own_radiance(seen.surface, seen.front);
     return light;
 }
 
-/// True when lamps of a word have to be added to what the photons say, or a mirror to be followed.
+/// True when lamps of a word have to be added to what the photons say.
 bool needs_rays(Seen seen, uint word) LW_MEMBER {
     uint bits = 0u;
-    return (has_mirrors && is_purely_specular(seen.surface)) || (has_direct && lamps_to_add(seen.at, word, bits) != 0u);
+    return has_direct && lamps_to_add(seen.at, word, seen.surface, bits) != 0u;
 }
 
-/// Adds the lamps of one word, and with the first word what is seen in mirrors beside the lamps' light.
+/// Adds the lamps of one word.
 void add_rays(Seen seen, uint word, uint seed, LW_INOUT(Gathered) light) LW_MEMBER {
-    vec3 reflected = vec3(1.0f);
-    for (uint mirrors = 0u; mirrors <= (has_mirrors ? most_mirrors : 0u); ++mirrors) {
-        Surface s = seen.surface;
-        Gathered shown = no_light();
-        if (mirrors > 0u && word == 0u) shown = without_rays(seen);
-        if (has_direct) add_direct(seen.at, word, s, seen.n_geometric, seen.n_shading, seen.to_eye, seed, shown);
-        light.radiance += reflected * shown.radiance;
-        if (mirrors == 0u) light.irradiance += shown.irradiance;
-        if (!has_mirrors || !is_purely_specular(s)) return;
-        vec3 direction = reflect(-seen.to_eye, seen.n_shading);
-        if (dot(direction, seen.n_geometric) <= 0.0f) return;
-        reflected *= s.base_color + (vec3(1.0f) - s.base_color) * schlick_weight(dot(seen.n_shading, seen.to_eye));
-        vec2 barycentrics = vec2(0.0f);
-        uint triangle = nearest_surface(s.position + seen.n_geometric * ray_epsilon, direction, scene_size, barycentrics);
-        if (triangle == no_map) return;
-        seen = see(triangle, barycentrics, s.position);
-    }
-}
-
-/// All light towards `eye` from (triangle, barycentrics); illuminance, bandwidth and photons are of that place.
-Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed) LW_MEMBER {
-    Seen seen = see(triangle, barycentrics, eye);
-    Gathered light = without_rays(seen);
-    for (uint word = 0u; word < ray_words(light_count); ++word) add_rays(seen, word, seed, light);
-    return light;
+    add_direct(seen.at, word, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, seed, light);
 }
