@@ -1,6 +1,6 @@
 // The glTF 2.0 metallic-roughness BRDF (specification, appendix B.2-B.3) with KHR_materials_specular, _ior, _transmission
 // and _volume: reflection, thin sheets and refracting glass; single scattering, as the specification has it. One text for
-// C++ and GLSL; needs Surface, surface_at, the arrays of surface.glsl and the constants has_alpha, has_transmission.
+// C++ and GLSL; needs Surface, surface.glsl, its arrays and its constants.
 
 /// Fresnel reflectance at normal incidence of the dielectric base.
 vec3 dielectric_f0(Surface s) LW_MEMBER {
@@ -53,14 +53,55 @@ bool is_purely_specular(Surface s) LW_MEMBER {
     return mirror || glass;
 }
 
-/// BRDF value f (1/sr, without cosine) for unit vectors to viewer and light, both on the side of `n`
-/// (the shading normal turned to the viewer). Zero below the horizon. `diffuse_only` leaves the GGX lobe out.
-vec3 eval_brdf(Surface s, vec3 n, vec3 to_view, vec3 to_light, bool diffuse_only) LW_MEMBER {
+/// Reflectance of the specular lobe where its facets are met at `cosine`.
+vec3 specular_reflectance(Surface s, float cosine, bool inside) LW_MEMBER {
+    vec3 metal = s.base_color + (vec3(1.0f) - s.base_color) * schlick_weight(cosine);
+    return dielectric_fresnel(s, cosine, inside) * (1.0f - s.metallic) + metal * s.metallic;
+}
+
+/// Visible normals of GGX (Heitz 2018) in the frame of the surface, from a point of the unit disc.
+vec3 sample_visible_normal(vec3 view, float alpha, vec2 disc) LW_MEMBER {
+    vec3 vh = normalize(vec3(alpha * view.x, alpha * view.y, view.z));
+    float length2 = vh.x * vh.x + vh.y * vh.y;
+    vec3 t1 = length2 > 0.0f ? vec3(-vh.y, vh.x, 0.0f) / sqrt(length2) : vec3(1.0f, 0.0f, 0.0f);
+    vec3 t2 = cross(vh, t1);
+    float blend = 0.5f * (1.0f + vh.z);
+    float y = (1.0f - blend) * sqrt(max(0.0f, 1.0f - disc.x * disc.x)) + blend * disc.y;
+    vec3 h = disc.x * t1 + y * t2 + sqrt(max(0.0f, 1.0f - disc.x * disc.x - y * y)) * vh;
+    return normalize(vec3(alpha * h.x, alpha * h.y, max(1e-6f, h.z)));
+}
+
+/// D_v(h) / (v.h): the density of the visible normals without the cosine to the viewer.
+float visible_normal_density(float alpha, float nh, float nv) LW_MEMBER {
+    float a2 = alpha * alpha;
+    float t = nh * nh * (a2 - 1.0f) + 1.0f;
+    float d = a2 / (lw_pi * t * t);
+    float g1 = 2.0f * nv / (nv + sqrt(a2 + (1.0f - a2) * nv * nv));
+    return g1 * d / nv;
+}
+
+/// Solid-angle density of the reflections of a lobe sampled by its visible normals; 0 for mirrors.
+float lobe_pdf(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
+    float alpha = s.roughness * s.roughness;
+    vec3 h = to_view + to_light;
+    float h_length = length(h);
+    if (alpha < smallest_alpha || h_length < 1e-6f) return 0.0f;
+    return visible_normal_density(alpha, clamp(dot(n, h) / h_length, 0.0f, 1.0f), max(dot(n, to_view), 1e-4f)) / 4.0f;
+}
+
+/// Value of a BRDF (1/sr, without cosine), by lobe.
+struct BrdfParts {
+    vec3 diffuse;
+    vec3 specular;
+};
+
+BrdfParts brdf_parts(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
+    BrdfParts f;
+    f.diffuse = vec3(0.0f);
+    f.specular = vec3(0.0f);
     float nl = dot(n, to_light);
     float nv = max(dot(n, to_view), 1e-4f);
-    if (nl <= 0.0f || (s.flags & material_unlit) != 0u) return vec3(0.0f);
-    vec3 diffuse = s.base_color * ((1.0f - s.metallic) * (1.0f - s.transmission) / lw_pi);
-    if (diffuse_only) return diffuse;
+    if (nl <= 0.0f || (s.flags & material_unlit) != 0u) return f;
     vec3 h = to_view + to_light;
     float h_length = length(h);
     h = h_length > 1e-6f ? h / h_length : n;
@@ -70,7 +111,20 @@ vec3 eval_brdf(Surface s, vec3 n, vec3 to_view, vec3 to_light, bool diffuse_only
     vec3 metal_fresnel = s.base_color + (vec3(1.0f) - s.base_color) * schlick_weight(vh);
     float alpha = s.roughness * s.roughness;
     float lobe = alpha < smallest_alpha ? 0.0f : ggx_d_v(alpha, clamp(dot(n, h), 0.0f, 1.0f), nl, nv);
-    return diffuse * dielectric_diffuse + (fresnel * (1.0f - s.metallic) + metal_fresnel * s.metallic) * lobe;
+    f.diffuse = s.base_color * ((1.0f - s.metallic) * (1.0f - s.transmission) / lw_pi) * dielectric_diffuse;
+    f.specular = (fresnel * (1.0f - s.metallic) + metal_fresnel * s.metallic) * lobe;
+    return f;
+}
+
+/// BRDF value f (1/sr, without cosine) for unit vectors to viewer and light, both on the side of `n`
+/// (the shading normal turned to the viewer). Zero below the horizon. `diffuse_only` leaves the GGX lobe out.
+vec3 eval_brdf(Surface s, vec3 n, vec3 to_view, vec3 to_light, bool diffuse_only) LW_MEMBER {
+    if (diffuse_only) {
+        if (dot(n, to_light) <= 0.0f || (s.flags & material_unlit) != 0u) return vec3(0.0f);
+        return s.base_color * ((1.0f - s.metallic) * (1.0f - s.transmission) / lw_pi);
+    }
+    BrdfParts f = brdf_parts(s, n, to_view, to_light);
+    return f.diffuse + f.specular;
 }
 
 /// True when what a sheet transmits goes straight on: shadow rays pass it, and light through it is still direct.
@@ -132,14 +186,6 @@ vec3 eval_bsdf(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
 /// Part of the light left after `distance` m in a medium of `absorption` 1/m (Beer-Lambert).
 vec3 passed_by_medium(vec3 absorption, float distance) LW_MEMBER { return exp(-absorption * distance); }
 
-/// How much of the surface is there: alpha of a blend; 0 or 1 by the cutoff of a mask; 1 of everything else.
-float opacity_at(uint triangle, Surface s) LW_MEMBER {
-    if (!has_alpha) return 1.0f;
-    if ((s.flags & material_alpha_mask) != 0u)
-        return s.alpha < material_of(triangle).alpha_cutoff ? 0.0f : 1.0f;
-    return (s.flags & material_alpha_blend) != 0u ? clamp(s.alpha, 0.0f, 1.0f) : 1.0f;
-}
-
 /// Fraction of light that a crossed triangle lets pass straight on: holes, and thin smooth sheets. The rest is reflected,
 /// scattered or refracted, which is the photons' and the paths' business.
 vec3 passed_by(uint triangle, vec2 barycentrics, vec3 direction) LW_MEMBER {
@@ -161,4 +207,15 @@ vec3 albedo_towards(Surface s, float nv) LW_MEMBER {
     vec3 metal = s.base_color * scale + vec3(offset);
     float diffuse = (1.0f - max(dielectric.x, max(dielectric.y, dielectric.z))) * (1.0f - s.transmission);
     return (s.base_color * diffuse + dielectric) * (1.0f - s.metallic) + metal * s.metallic;
+}
+
+/// The part of light from all sides alike that the diffuse lobe alone sends to the viewer, at cosine `nv` to the normal: what
+/// Fresnel's factor passes, averaged over the hemisphere (the mean of Schlick's weight, fitted to 0.0002).
+vec3 diffuse_albedo_towards(Surface s, float nv) LW_MEMBER {
+    if ((s.flags & material_unlit) != 0u) return vec3(0.0f);
+    vec3 f0 = dielectric_f0(s);
+    float m = (1.0f - nv) * (1.0f - nv);
+    float mean_weight = 0.0160f * m + 0.0120f * m * m;
+    float passed = passed_by_fresnel(f0 + (vec3(s.specular) - f0) * mean_weight);
+    return s.base_color * (passed * (1.0f - s.metallic) * (1.0f - s.transmission));
 }

@@ -3,13 +3,14 @@
 // shadows as sharp as masks and lattice. One text for C++ and GLSL. The including scope provides what gather.glsl and
 // rays.glsl need, the array emitters, the functions light_at, light_weight, profile_value, cell_word, shadow_mask, and the
 // constants has_mesh_lamps, has_profiles, has_emissive_textures, has_visible_lamps, has_shadow_masks, has_smooth_caustics,
-// has_shadow_rays, light_count, shadow_rays, ray_epsilon, scene_size.
+// has_shadow_rays, has_followed, light_count, shadow_rays, ray_epsilon, scene_size.
 
 /// Light that would arrive at a point from one place of a lamp at unit intensity, if nothing stood between.
 struct LightSample {
     vec3 irradiance;  // on a plane facing the light
     vec3 to_light;    // unit
     float far;        // m
+    float pdf;        // solid angle; 0 for points and suns
 };
 
 /// Point, spot or directional lamp; falloff as KHR_lights_punctual.
@@ -18,6 +19,7 @@ LightSample sample_punctual(Light lamp, vec3 position) LW_MEMBER {
     result.irradiance = vec3(1.0f);
     result.to_light = -lamp.direction;
     result.far = scene_size;
+    result.pdf = 0.0f;
     if (lamp.type == light_directional) return result;
     vec3 path = lamp.position - position;
     float d2 = max(dot(path, path), 1e-30f);
@@ -49,6 +51,12 @@ uint pick_emitter(Light lamp, float u, LW_INOUT(float) within) LW_MEMBER {
     return emitters[low].triangle;
 }
 
+/// Solid-angle density with which a point of a mesh lamp is picked that is met from `distance` at `cosine` to its normal.
+float point_pdf(Light lamp, float distance, float cosine) LW_MEMBER {
+    float area = emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below;
+    return distance * distance / (area * max(abs(cosine), 1e-6f));
+}
+
 /// One point of a mesh lamp, uniform by area, standing for all of it: E = L A cos(theta') / d^2.
 LightSample sample_mesh(Light lamp, vec3 position, vec2 u) LW_MEMBER {
     float within = 0.0f;
@@ -69,8 +77,12 @@ LightSample sample_mesh(Light lamp, vec3 position, vec2 u) LW_MEMBER {
     if ((material.flags & material_double_sided) != 0u) cos_emitted = abs(cos_emitted);
     float area = emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below;
     vec3 emitted = material.emissive;
-    if (has_emissive_textures) emitted = surface_at(triangle, barycentrics).emissive;
+    if (has_emissive_textures || has_alpha) {
+        Surface there = surface_at(triangle, barycentrics);
+        emitted = there.emissive * opacity_at(triangle, there);  // holes do not glow
+    }
     result.irradiance = emitted / max(lamp.intensity, vec3(1e-20f)) * (area * max(cos_emitted, 0.0f) / d2);
+    result.pdf = point_pdf(lamp, result.far, cos_emitted);
     return result;
 }
 
@@ -86,6 +98,7 @@ uint hash_uint(uint x) LW_MEMBER {  // Wellons 2018, "lowbias32"
 struct Sight {
     vec3 passed;   // the part that arrives, unless
     bool by_rays;  // only rays tell
+    bool in_cell;  // the light of the cell holds it: but for a lobe
 };
 
 /// The part of 8 x 8 points that are lit, between the four around `f` in the cell.
@@ -115,17 +128,38 @@ bool is_edge(uvec4 mask, vec2 f) LW_MEMBER {
     return !dark && !lit;
 }
 
+/// What a light sample counts beside a ray along the specular lobe that might meet the same lamp (power heuristic, Veach 1997).
+float share_of_sample(Surface s, vec3 n_shading, vec3 to_view, LightSample light) LW_MEMBER {
+    float by_samples = float(max(shadow_rays, 1u)) * light.pdf;
+    float by_ray = lobe_pdf(s, n_shading, to_view, light.to_light);
+    return by_samples * by_samples / max(by_samples * by_samples + by_ray * by_ray, 1e-30f);
+}
+
+/// Light of a point or sun from behind a rough sheet or volume.
+vec3 transmitted_light(Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LightSample light, vec3 incoming) LW_MEMBER {
+    vec3 f = eval_btdf(s, n_shading, to_view, light.to_light) * max(-dot(n_shading, light.to_light), 0.0f);
+    if (has_shadow_rays && max(f.x, max(f.y, f.z)) > 0.0f)
+        f *= shadow_ray(s.position - n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
+    return incoming * f;
+}
+
+/// True where light of points behind a surface spreads to the viewer.
+bool shows_points_behind(Surface s) LW_MEMBER {
+    return has_followed && has_transmission && s.transmission > 0.0f && !transmits_smoothly(s);
+}
+
 /// `bits` are what the cell knows of the lamp, `mask` its shadow mask, if it has one.
-Sight sight_of(uint bits, uint mask, vec2 f) LW_MEMBER {
+Sight sight_of(uint bits, uint mask, vec2 f, Surface s) LW_MEMBER {
     Sight sight;
+    sight.in_cell = gather_mode == gather_mode_cached && (bits & in_cell_light) != 0u;
     sight.passed = vec3(1.0f);
-    uint seen = bits & (some_visible | some_hidden);
-    sight.by_rays = has_shadow_rays && seen != some_visible;
+    bool behind = shows_points_behind(s);
+    sight.by_rays = has_shadow_rays && (behind || (bits & (some_visible | some_hidden)) != some_visible);
     if (!has_shadow_rays && has_visible_lamps) sight.passed = vec3(corners_set(bits >> 4, f));  // on no map: of no lamp
-    if (has_shadow_masks && (bits & has_shadow_mask) != 0u) {
+    if (has_shadow_masks && !behind && (bits & has_shadow_mask) != 0u) {
         uvec4 points = shadow_mask(mask);
-        sight.passed = lit_part(points, f) * unpack_rgb9e5(points.z);
         sight.by_rays = has_shadow_rays && is_edge(points, f);
+        if (!sight.by_rays) sight.passed = lit_part(points, f) * unpack_rgb9e5(points.z);
     }
     return sight;
 }
@@ -135,6 +169,7 @@ void add_lamp(uint i, Sight sight, Surface s, vec3 n_geometric, vec3 n_shading, 
               LW_INOUT(Gathered) sum) LW_MEMBER {
     Light lamp = light_at(i);
     bool mesh = lamp.type == light_mesh;
+    bool beside_rays = leaves_lobe_out(s) && mesh;  // of its lobe, rays see the other part
     vec3 weight = light_weight(i) * sight.passed;
     uint random = hash_uint(seed + hash_uint(i));
     vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
@@ -145,12 +180,16 @@ void add_lamp(uint i, Sight sight, Surface s, vec3 n_geometric, vec3 n_shading, 
             light = sample_mesh(lamp, s.position, fract(start + float(j) * vec2(0.754877666f, 0.569840291f)));
         float cos_geometric = dot(n_geometric, light.to_light);
         vec3 incoming = weight * light.irradiance / float(samples);
+        if (shows_points_behind(s) && !mesh && cos_geometric < 0.0f)
+            sum.radiance += transmitted_light(s, n_geometric, n_shading, to_view, light, incoming);
         if (cos_geometric <= 0.0f || max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) continue;
         if (has_shadow_rays && sight.by_rays)
             incoming *= shadow_ray(s.position + n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
-        sum.irradiance += incoming * cos_geometric;
-        sum.radiance += incoming * max(dot(n_shading, light.to_light), 0.0f) *
-                        eval_brdf(s, n_shading, to_view, light.to_light, false);
+        BrdfParts f = brdf_parts(s, n_shading, to_view, light.to_light);
+        if (beside_rays) f.specular *= share_of_sample(s, n_shading, to_view, light);
+        if (sight.in_cell) f.diffuse = vec3(0.0f);
+        if (!sight.in_cell) sum.irradiance += incoming * cos_geometric;
+        sum.radiance += incoming * max(dot(n_shading, light.to_light), 0.0f) * (f.diffuse + f.specular);
     }
 }
 
@@ -161,11 +200,15 @@ uint lamp_bits(MapPlace at, uint word) LW_MEMBER {
     return cell_word(at.cell * cell_words(light_count, has_marks) + (has_marks ? 1u : 0u) + word);
 }
 
+/// True for a lobe, neither mirror nor wide, whose reflection of mesh lamps is sampled at the lamps too.
+bool samples_lobe(Surface s) LW_MEMBER { return leaves_lobe_out(s) && s.roughness * s.roughness >= smallest_alpha; }
+
 /// One bit per lamp of a word of a cell, at its lowest: set for those a pixel has to add. Hidden ones are skipped, and in
-/// the cached mode those that the light of the cell holds.
-uint lamps_to_add(uint bits, uint word) LW_MEMBER {
+/// the cached mode those that the light of the cell holds, unless a lobe is to show them.
+uint lamps_to_add(uint bits, uint word, Surface s) LW_MEMBER {
     uint skipped = (bits >> 1) & ~bits;
-    if (gather_mode == gather_mode_cached) skipped |= bits >> 2;
+    if (shows_points_behind(s)) skipped = 0u;
+    if (gather_mode == gather_mode_cached && !samples_lobe(s)) skipped |= bits >> 2;
     uint left = light_count - word * cell_lamps_per_word;
     uint all = left < cell_lamps_per_word ? (1u << (8u * left)) - 1u : 0xffffffffu;
     return 0x01010101u & ~skipped & all;
@@ -180,30 +223,19 @@ uint first_shadow_mask(MapPlace at, uint word) LW_MEMBER {
 }
 
 /// What is known of the lamp whose bits begin at `shift` in its word.
-Sight sight_in_word(MapPlace at, uint bits, uint shift, uint first_mask) LW_MEMBER {
-    return sight_of((bits >> shift) & 255u, first_mask + bitCount(bits & 0x08080808u & ((1u << shift) - 1u)), at.f);
+Sight sight_in_word(MapPlace at, uint bits, uint shift, uint first_mask, Surface s) LW_MEMBER {
+    return sight_of((bits >> shift) & 255u, first_mask + bitCount(bits & 0x08080808u & ((1u << shift) - 1u)), at.f, s);
 }
 
-/// True when rays have to be traced for a lamp of a word.
-bool needs_shadow_rays(MapPlace at, uint word) LW_MEMBER {
-    uint bits = lamp_bits(at, word);
-    uint first_mask = first_shadow_mask(at, word);
-    bool any = false;
-    for (uint todo = has_shadow_rays ? lamps_to_add(bits, word) : 0u; todo != 0u; todo &= todo - 1u)
-        any = any || sight_in_word(at, bits, uint(findLSB(todo)), first_mask).by_rays;
-    return any;
-}
-
-/// Adds the direct light of the lamps of one word at a place: of those that need rays, or of all others. `seed` shifts the
-/// points on mesh lamps (Cranley & Patterson 1976) of the R2 sequence (Roberts 2018).
-void add_direct(MapPlace at, uint word, bool by_rays, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+/// Adds the direct light of the lamps of one word at a place. `seed` shifts the points on mesh lamps (Cranley & Patterson
+/// 1976) of the R2 sequence (Roberts 2018).
+void add_direct(MapPlace at, uint word, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
     uint bits = lamp_bits(at, word);
     uint first_mask = first_shadow_mask(at, word);
-    for (uint todo = lamps_to_add(bits, word); todo != 0u; todo &= todo - 1u) {
+    for (uint todo = lamps_to_add(bits, word, s); todo != 0u; todo &= todo - 1u) {
         uint shift = uint(findLSB(todo));
-        Sight sight = sight_in_word(at, bits, shift, first_mask);
-        if (sight.by_rays != by_rays) continue;
+        Sight sight = sight_in_word(at, bits, shift, first_mask, s);
         add_lamp(word * cell_lamps_per_word + shift / 8u, sight, s, n_geometric, n_shading, to_view, seed, sum);
     }
 }

@@ -3,6 +3,7 @@
 #ifndef LW_FRAME_H
 #define LW_FRAME_H
 #include "bvh.h"
+#include "followed.h"
 #include "photon_map.h"
 #include "scene.h"
 #ifdef __cplusplus
@@ -48,6 +49,7 @@ LW_CONST uint binding_ray_lists = 2u;
 LW_CONST uint binding_ray_pixels = 3u;
 LW_CONST uint binding_screen = 4u;
 LW_CONST uint binding_light = 5u;  // the radiance buffer as texels
+LW_CONST uint binding_followed = 6u;  // Followed per pixel
 
 LW_CONST uint constant_has_uv0 = 0u;
 LW_CONST uint constant_has_uv1 = 1u;
@@ -69,17 +71,22 @@ LW_CONST uint constant_has_emissive_textures = 16u;
 LW_CONST uint constant_has_shadow_rays = 17u;
 LW_CONST uint constant_has_metallic_roughness_textures = 18u;
 LW_CONST uint constant_has_transmission_textures = 19u;
-LW_CONST uint constant_has_mirrors = 20u;
+LW_CONST uint constant_has_followed = 20u;  // view paths go on from some surfaces
 LW_CONST uint constant_stage = 21u;
 LW_CONST uint constant_has_caustics = 22u;
 LW_CONST uint constant_has_profiles = 23u;
 LW_CONST uint constant_has_smooth_caustics = 24u;
 LW_CONST uint constant_has_shadow_masks = 25u;
-LW_CONST uint constant_count = 26u;
+LW_CONST uint constant_looks_through = 26u;  // glass and blends are surfaces of the view, what is behind them is followed
+LW_CONST uint constant_followed_roughness = 27u;  // bits of a float: lobes of smoother surfaces are followed
+LW_CONST uint constant_of_followed = 28u;  // photons and rays at the ends of followed paths
+LW_CONST uint constant_count = 29u;
 
-/// The dispatches of the gather: photons at all pixels, then rays at those that need any.
+/// The dispatches of the gather: photons at all pixels, then rays at those that need any; where view paths go on, a dispatch
+/// that follows them, and photons and rays at their ends.
 LW_CONST uint stage_photons = 0u;
 LW_CONST uint stage_rays = 1u;
+LW_CONST uint stage_follow = 2u;
 LW_CONST uint gather_group_side = 8u;  // pixels
 
 /// The arguments of the dispatch for rays to the lamps of a word; its pixels are listed from word * pixels of the picture on.
@@ -124,6 +131,7 @@ struct Frame {
     uint shadow_rays;     // per emissive mesh
     float inverse_irradiance_scale;
     uint ray_word;  // whose lamps rays are traced to
+    uint following;  // pack_following()
 };
 
 /// Push constants of the tone mapping pass.
@@ -136,7 +144,7 @@ struct Screen {
 #ifdef __cplusplus
 static_assert(offsetof(Material, absorption) == 72 && sizeof(Material) > 16 * look_texels);
 static_assert(sizeof(LampPower) == 32 && sizeof(RayPixels) == 16 && sizeof(Screen) == 12);
-static_assert(sizeof(Frame) == 120 && offsetof(Frame, ray_word) == 116);
+static_assert(sizeof(Frame) == 124 && offsetof(Frame, following) == 120);
 }  // namespace lw
 #endif
 #endif

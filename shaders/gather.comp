@@ -30,6 +30,7 @@ layout(set = 0, binding = binding_bvh_triangles) uniform utextureBuffer bvh_tria
 layout(set = 1, binding = binding_visibility) uniform utexture2D visibility;
 layout(set = 1, binding = binding_radiance, scalar) buffer Radiance { vec4 radiance_illuminance[]; };
 layout(set = 1, binding = binding_ray_lists, scalar) buffer RayLists { RayPixels ray_lists[]; };
+layout(set = 1, binding = binding_followed, scalar) buffer FollowedPaths { Followed followed[]; };
 layout(set = 1, binding = binding_ray_pixels, scalar) buffer ListedPixels { uint listed_pixels[]; };
 
 #define max_radius frame.max_radius
@@ -127,20 +128,27 @@ Light light_at(uint i) { return lights[i]; }
 #include "profile.glsl"
 #include "direct.glsl"
 #include "shade.glsl"
+#include "follow.glsl"
 #include "inspect.glsl"
 
-void list_pixel(uint pixel, uint word) {
-    uint place = atomicAdd(ray_lists[word].count, 1u);
-    if (place % (gather_group_side * gather_group_side) == 0u) atomicAdd(ray_lists[word].groups_x, 1u);
-    listed_pixels[word * frame.width * frame.height + place] = pixel;
+void list_pixel(uint pixel, uint list) {
+    uint place = atomicAdd(ray_lists[list].count, 1u);
+    if (place % (gather_group_side * gather_group_side) == 0u) atomicAdd(ray_lists[list].groups_x, 1u);
+    listed_pixels[list * frame.width * frame.height + place] = pixel;
+}
+
+/// The list whose pixels this dispatch is for.
+uint list_of_dispatch() {
+    return stage == stage_rays ? frame.ray_word : ray_words(light_count) + unpack_following(frame.following).branch;
 }
 
 /// The pixel of this invocation, or one beyond the picture.
 uint pixel_to_shade() {
     uint pixels = frame.width * frame.height;
-    if (stage == stage_rays) {
+    if (stage != stage_photons || of_followed) {
+        uint list = list_of_dispatch();
         uint place = gl_WorkGroupID.x * gather_group_side * gather_group_side + gl_LocalInvocationIndex;
-        return place < ray_lists[frame.ray_word].count ? listed_pixels[frame.ray_word * pixels + place] : pixels;
+        return place < ray_lists[list].count ? listed_pixels[list * pixels + place] : pixels;
     }
     uvec2 xy = gl_GlobalInvocationID.xy;
     return xy.x < frame.width && xy.y < frame.height ? xy.y * frame.width + xy.x : pixels;
@@ -154,27 +162,101 @@ vec4 inspect_pixel(Seen seen, uint seed) {
     return vec4(i.bandwidth, i.photons, i.relative_error, i.dot_lamp);
 }
 
+float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+Seen seen_by(uint pixel) {
+    uvec4 visible = texelFetch(visibility, ivec2(pixel % frame.width, pixel / frame.width), 0);
+    return marked(see(visible.x, uintBitsToFloat(visible.yz), frame.camera_position));
+}
+
+uvec2 place_of(uint pixel) { return uvec2(pixel % frame.width, pixel / frame.width); }
+
+/// Follows one path of a pixel to where photons and rays are gathered next.
+void follow_pixel(uint pixel) {
+    Following following = unpack_following(frame.following);
+    PathNumbers numbers = path_numbers(place_of(pixel), following, frame.sample_index);
+    ViewRay ray = no_ray();
+    Followed before = followed[pixel];
+    uint looked_at = 0u;
+    if (following.depth == 0u) {
+        Seen seen = seen_by(pixel);
+        ray = first_ray(seen, following.branch, numbers);
+        if (following.branch == branch_through && is_looked_through(seen)) looked_at = followed_is_looked_at;
+    } else {
+        if (before.triangle == no_map || (before.flags & followed_goes_on) == 0u) {
+            followed[pixel].triangle = no_map;
+            return;
+        }
+        ray = reflected_ray(see_followed(before), vec3(0.0f), lobe_numbers(numbers, 0u));
+        ray.weight *= before.weight;
+    }
+    PathEnd end = follow(ray, numbers, following.depth > 0u);
+    end.at.flags |= looked_at;
+    followed[pixel] = end.at;
+    if (luminance(end.glow) > 0.0f)
+        radiance_illuminance[pixel].xyz += end.glow * frame.sample_weight / float(following.paths);
+}
+
+/// Photons or rays at the end of a path.
+void gather_followed(uint pixel) {
+    Followed at = followed[pixel];
+    if (at.triangle == no_map) return;
+    Seen seen = see_followed(at);
+    Gathered light = no_light();
+    Following following = unpack_following(frame.following);
+    uint seed = seed_at_end(hash_uint(pixel + hash_uint(frame.sample_index)), following);
+    if (stage == stage_rays) {
+        add_rays(seen, frame.ray_word, seed, light);
+    } else {
+        light = estimate_at(seen);
+        for (uint word = 0u; has_direct && word < ray_words(light_count); ++word)
+            if (needs_rays(seen, word)) list_pixel(pixel, word);
+    }
+    float lux = (at.flags & followed_is_looked_at) != 0u ? luminance(light.irradiance) : 0.0f;
+    radiance_illuminance[pixel] += vec4(at.weight * light.radiance, lux) * (frame.sample_weight / float(following.paths));
+}
+
+/// Photons or rays at what a pixel sees; lists the pixels from which paths go on.
+Gathered gather_seen(uint pixel, Seen seen) {
+    Gathered light = no_light();
+    uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
+    if (stage == stage_rays) {
+        add_rays(seen, frame.ray_word, seed, light);
+    } else {
+        light = estimate_at(seen);
+        light.radiance += own_radiance(seen.surface, seen.front);
+        for (uint word = 0u; has_direct && word < ray_words(light_count); ++word)
+            if (needs_rays(seen, word)) list_pixel(pixel, word);
+        for (uint branch = 0u; has_followed && branch < branch_count; ++branch)
+            if (goes_on(seen, branch)) list_pixel(pixel, ray_words(light_count) + branch);
+    }
+    light.radiance *= shown_part(seen);
+    if (is_looked_through(seen)) light.irradiance = vec3(0.0f);
+    return light;
+}
+
 void main() {
     uint pixel = pixel_to_shade();
     if (pixel >= frame.width * frame.height) return;
+    if (has_followed && stage == stage_follow) {
+        follow_pixel(pixel);
+        return;
+    }
+    if (has_followed && of_followed) {
+        gather_followed(pixel);
+        return;
+    }
     uvec4 visible = texelFetch(visibility, ivec2(pixel % frame.width, pixel / frame.width), 0);
     Gathered light = no_light();
     if (visible.x < frame.triangle_limit) {
-        Seen seen = see(visible.x, uintBitsToFloat(visible.yz), frame.camera_position);
-        uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
+        Seen seen = seen_by(pixel);
         if (gather_mode == gather_mode_inspect) {
-            radiance_illuminance[pixel] = inspect_pixel(seen, seed);
+            radiance_illuminance[pixel] = inspect_pixel(seen, hash_uint(pixel + hash_uint(frame.sample_index)));
             return;
         }
-        if (stage == stage_rays) {
-            add_rays(seen, frame.ray_word, seed, light);
-        } else {
-            light = without_rays(seen, seed);
-            for (uint word = 0u; (has_direct || has_mirrors) && word < ray_words(light_count); ++word)
-                if (needs_rays(seen, word)) list_pixel(pixel, word);
-        }
+        light = gather_seen(pixel, seen);
     }
-    vec4 sum = vec4(light.radiance, dot(light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f))) * frame.sample_weight;
+    vec4 sum = vec4(light.radiance, luminance(light.irradiance)) * frame.sample_weight;
     if (stage == stage_rays || frame.sample_index > 0u) sum += radiance_illuminance[pixel];
     radiance_illuminance[pixel] = sum;
 }

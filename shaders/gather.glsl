@@ -1,7 +1,7 @@
 // Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
 // The including scope provides the functions grid_at, cell_start, photon_place, photon_flux, photon_direction,
-// light_weight, node_coverage, cell_light and the constants gather_mode, neighbours, heap_size, max_radius,
-// inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage. Needs photon_map.h and bsdf.glsl.
+// light_weight, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode, neighbours, heap_size, max_radius,
+// inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage, has_followed. Needs photon_map.h and bsdf.glsl.
 
 Gathered no_light() LW_MEMBER {
     Gathered nothing;
@@ -12,18 +12,29 @@ Gathered no_light() LW_MEMBER {
     return nothing;
 }
 
+/// True for a photon that no followed ray can stand for: a ray may meet a mirrored mesh lamp, but no mirrored point or sun.
+bool is_unseen_by_rays(Surface s, PhotonPlace photon) LW_MEMBER {
+    if (!has_caustics || path_of(photon) != path_caustic || s.roughness * s.roughness < smallest_alpha) return false;
+    return light_at(light_of(photon)).type != light_mesh;
+}
+
+/// True where rays bring what the specular lobe reflects, so that estimates have to leave it out.
+bool leaves_lobe_out(Surface s) LW_MEMBER { return has_followed && (s.flags & lobe_is_followed) != 0u; }
+
 /// Adds photon `i` of the record `place`, weighted by `kernel`, to sums that add_up() completes.
 void add_photon(uint i, PhotonPlace place, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
     vec3 flux = unpack_rgb9e5(photon_flux(i)) * light_weight(light_of(place)) * kernel;
     sum.irradiance += flux;
     if (!has_directions) return;
+    bool lobe_left_out = leaves_lobe_out(s) && !is_unseen_by_rays(s, place);
     s.roughness = max(s.roughness, narrowest_gathered_roughness);
     vec3 to_light = unpack_direction(photon_direction(i));
     float cos_shading = dot(n_shading, to_light);
     float cos_geometric = max(dot(n_geometric, to_light), 0.05f);
     float tilt = clamp(cos_shading / cos_geometric, 0.0f, 2.0f);  // irradiance on the shading normal's plane
-    sum.radiance += flux * tilt * eval_brdf(s, n_shading, to_view, to_light, false);
+    BrdfParts f = brdf_parts(s, n_shading, to_view, to_light);
+    sum.radiance += flux * tilt * (lobe_left_out ? f.diffuse : f.diffuse + f.specular);
 }
 
 /// Brings sums of flux to irradiance and radiance; `peak` (1/m2) is what all kernels have in common.
@@ -225,8 +236,9 @@ Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_
     vec3 high = mix(unpack_rgb9e5(corners.z), unpack_rgb9e5(corners.w), at.f.x);
     Gathered sum;
     sum.irradiance = mix(low, high, at.f.y) * inverse_irradiance_scale;
+    float nv = max(dot(n_shading, to_view), 0.0f);
     if (has_directions)
-        sum.radiance = sum.irradiance * albedo_towards(s, max(dot(n_shading, to_view), 0.0f)) / lw_pi;
+        sum.radiance = sum.irradiance * (leaves_lobe_out(s) ? diffuse_albedo_towards(s, nv) : albedo_towards(s, nv)) / lw_pi;
     else
         sum.radiance = sum.irradiance * eval_brdf(s, n_shading, to_view, n_shading, true);
     sum.radius = 0.0f;

@@ -69,7 +69,7 @@ LW_CONST uint has_shadow_mask = 8u;
 /// order of corner_sees, whose light holds the caustics; above them the first of its shadow masks, in the order of lamps.
 LW_INLINE uint cell_words(uint lamps, bool has_marks) { return cell_lamp_words(lamps) + (has_marks ? 1u : 0u); }
 LW_CONST uint first_mask_shift = 4u;
-/// Words that rays are traced for: one even without lamps, for mirrors.
+/// Words that rays are traced for.
 LW_INLINE uint ray_words(uint lamps) { return max(cell_lamp_words(lamps), 1u); }
 LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
 LW_INLINE uint cell_lamp_shift(uint lamp) { return 8u * (lamp % cell_lamps_per_word); }
@@ -91,8 +91,8 @@ struct PhotonPlace {
     uint h_light_and_path;  // low 16: height step; high 16: light | path << 14
 };
 
-/// Mirrors that a view ray follows one after the other.
-LW_CONST uint most_mirrors = 4u;
+/// Specular lobes of surfaces smoother than this glTF roughness are followed by rays; see docs/decisions/0007.
+LW_CONST float widest_followed_roughness = 0.75f;
 
 /// How photons become light.
 LW_CONST uint gather_mode_exact = 0u;   // the k nearest photons, with a heap: the paper's way

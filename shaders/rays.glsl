@@ -1,4 +1,4 @@
-// Rays through the hierarchy of shaders/bvh.h: shadow rays and the nearest surface. One text for C++ and GLSL; the including
+// Rays through the hierarchy of shaders/bvh.h: shadow rays and the nearest triangle. One text for C++ and GLSL; the including
 // scope provides what surface.glsl and bsdf.glsl need, the functions bvh_node_at, bvh_triangle_at and the constants
 // bvh_node_count, has_alpha, has_transmission. Nothing heavy inside the traversal: some devices run both sides of a branch.
 
@@ -82,22 +82,17 @@ vec3 shadow_ray(vec3 origin, vec3 direction, float far) LW_MEMBER {
     return light;
 }
 
-/// The nearest surface along a ray that does not let the view through, or no_map; sets where it is met.
-uint nearest_surface(vec3 origin, vec3 direction, float far, LW_INOUT(vec2) barycentrics) LW_MEMBER {
+/// The nearest triangle along a ray, holes and glass included, or no_map; sets where it is met.
+uint nearest_triangle(vec3 origin, vec3 direction, float far, LW_INOUT(vec2) barycentrics) LW_MEMBER {
     vec3 inverse = inverse_of(direction);
     Traversal at = start_traversal();
     vec3 hit = vec3(0.0f);
     uint nearest = no_map;
     uint entry = next_crossed(origin, direction, inverse, far, at, hit);
     while (entry != no_map) {
-        uint triangle = entry & ~bvh_see_through;
-        bool through = (entry & bvh_see_through) != 0u;
-        if (has_alpha || has_transmission) through = through && is_see_through(triangle, vec2(hit.x, hit.y));
-        if (!through) {
-            nearest = triangle;
-            barycentrics = vec2(hit.x, hit.y);
-            far = hit.z;
-        }
+        nearest = entry & ~bvh_see_through;
+        barycentrics = vec2(hit.x, hit.y);
+        far = hit.z;
         entry = next_crossed(origin, direction, inverse, far, at, hit);
     }
     return nearest;

@@ -18,6 +18,7 @@ LW_CONST uint material_unlit = 2u;         // shows base colour x 1 cd/m2, refle
 LW_CONST uint material_alpha_mask = 4u;
 LW_CONST uint material_alpha_blend = 8u;
 LW_CONST uint material_thin = 16u;  // transmission without refraction (no volume behind the surface)
+LW_CONST uint lobe_is_followed = 32u;  // of a Surface alone: rays bring what its specular lobe reflects, but for small lamps
 
 LW_CONST uint wrap_repeat = 0u;
 LW_CONST uint wrap_clamp = 1u;

@@ -1,6 +1,5 @@
-// What a view ray brings back from the surface it meets, mirrors followed. One text for C++ and GLSL; needs gather.glsl,
-// caustics.glsl, rays.glsl, direct.glsl, the functions map_of, lamp_factor and the constants has_caustics, has_direct,
-// has_mirrors.
+// What a surface shows to an eye, and how photons and lamps add up to it. One text for C++ and GLSL; needs gather.glsl,
+// caustics.glsl, rays.glsl, direct.glsl, the functions map_of, lamp_factor and the constants has_caustics, has_direct.
 
 /// A surface as the eye sees it.
 struct Seen {
@@ -32,50 +31,22 @@ vec3 own_radiance(Surface s, bool front) LW_MEMBER {
     return s.emissive * (s.light >= 0 ? lamp_factor(uint(s.light)) : vec3(1.0f));
 }
 
-/// Photons, glow and the lamps that the cell knows: all there is to see, but for add_rays() where needs_rays() says so.
-Gathered without_rays(Seen seen, uint seed) LW_MEMBER {
+/// Light of photons; what glows and what rays bring comes on top.
+Gathered estimate_at(Seen seen) LW_MEMBER {
     Gathered light = gather_photons(seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye);
     float left = has_caustics ? caustics_left(seen.at) : 0.0f;
     if (has_caustics && left > 0.0f)
         add_caustics(seen.triangle, seen.front, left, seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye,
                      light);
-    for (uint word = 0u; has_direct && word < cell_lamp_words(light_count); ++word)
-        add_direct(seen.at, word, false, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, seed, light);
-    light.radiance += own_radiance(seen.surface, seen.front);
     return light;
 }
 
-/// True when shadow rays have to be traced to lamps of a word, or a mirror to be followed.
+/// True when lamps of a word have to be added to what the photons say.
 bool needs_rays(Seen seen, uint word) LW_MEMBER {
-    return (has_mirrors && is_purely_specular(seen.surface)) || (has_direct && needs_shadow_rays(seen.at, word));
+    return has_direct && lamps_to_add(lamp_bits(seen.at, word), word, seen.surface) != 0u;
 }
 
-/// Adds the lamps of one word, and with the first word what is seen in mirrors beside the lamps' light.
+/// Adds the lamps of one word.
 void add_rays(Seen seen, uint word, uint seed, LW_INOUT(Gathered) light) LW_MEMBER {
-    vec3 reflected = vec3(1.0f);
-    for (uint mirrors = 0u; mirrors <= (has_mirrors ? most_mirrors : 0u); ++mirrors) {
-        Surface s = seen.surface;
-        Gathered shown = no_light();
-        if (mirrors > 0u && word == 0u) shown = without_rays(seen, seed);
-        if (has_direct && has_shadow_rays)
-            add_direct(seen.at, word, true, s, seen.n_geometric, seen.n_shading, seen.to_eye, seed, shown);
-        light.radiance += reflected * shown.radiance;
-        if (mirrors == 0u) light.irradiance += shown.irradiance;
-        if (!has_mirrors || !is_purely_specular(s)) return;
-        vec3 direction = reflect(-seen.to_eye, seen.n_shading);
-        if (dot(direction, seen.n_geometric) <= 0.0f) return;
-        reflected *= s.base_color + (vec3(1.0f) - s.base_color) * schlick_weight(dot(seen.n_shading, seen.to_eye));
-        vec2 barycentrics = vec2(0.0f);
-        uint triangle = nearest_surface(s.position + seen.n_geometric * ray_epsilon, direction, scene_size, barycentrics);
-        if (triangle == no_map) return;
-        seen = see(triangle, barycentrics, s.position);
-    }
-}
-
-/// All light towards `eye` from (triangle, barycentrics); illuminance, bandwidth and photons are of that place.
-Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed) LW_MEMBER {
-    Seen seen = see(triangle, barycentrics, eye);
-    Gathered light = without_rays(seen, seed);
-    for (uint word = 0u; word < ray_words(light_count); ++word) add_rays(seen, word, seed, light);
-    return light;
+    add_direct(seen.at, word, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, seed, light);
 }

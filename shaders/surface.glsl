@@ -119,6 +119,14 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
     return s;
 }
 
+/// How much of the surface is there: alpha of a blend; 0 or 1 by the cutoff of a mask; 1 of everything else.
+float opacity_at(uint triangle, Surface s) LW_MEMBER {
+    if (!has_alpha) return 1.0f;
+    if ((s.flags & material_alpha_mask) != 0u)
+        return s.alpha < material_of(triangle).alpha_cutoff ? 0.0f : 1.0f;
+    return (s.flags & material_alpha_blend) != 0u ? clamp(s.alpha, 0.0f, 1.0f) : 1.0f;
+}
+
 /// True where a view ray passes: cut-out texels, and glass, which is looked straight through.
 bool is_see_through(uint triangle, vec2 barycentrics) LW_MEMBER {
     Material m = material_of(triangle);
@@ -128,4 +136,10 @@ bool is_see_through(uint triangle, vec2 barycentrics) LW_MEMBER {
     if (has_transmission && s.transmission > 0.5f && s.metallic < 0.5f) return true;
     if (!cut_out) return false;
     return s.alpha < ((m.flags & material_alpha_mask) != 0u ? m.alpha_cutoff : 0.5f);
+}
+
+/// True where nothing of the surface is there to be seen.
+bool is_hole(uint triangle, vec2 barycentrics) LW_MEMBER {
+    if (!has_alpha || (material_of(triangle).flags & (material_alpha_mask | material_alpha_blend)) == 0u) return false;
+    return opacity_at(triangle, surface_at(triangle, barycentrics)) <= 0.0f;
 }

@@ -1,4 +1,5 @@
-// Writes which triangle a pixel sees, and where on it. Cut-out texels and glass let the view through.
+// Writes which triangle a pixel sees, and where on it. Cut-out texels let the view through, and glass
+// and blends where no ray follows what is behind them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -12,7 +13,8 @@ layout(location = 1) flat in uint triangle;
 layout(location = 0) out uvec4 visible;  // triangle, barycentrics and depth (m along -Z) as float bits
 
 void main() {
-    if ((has_alpha || has_transmission) && is_see_through(triangle, barycentrics)) discard;
+    if (has_alpha && looks_through && is_hole(triangle, barycentrics)) discard;
+    if ((has_alpha || has_transmission) && !looks_through && is_see_through(triangle, barycentrics)) discard;
     visible = uvec4(triangle, floatBitsToUint(barycentrics.x), floatBitsToUint(barycentrics.y),
                     floatBitsToUint(frame.near / gl_FragCoord.z));
 }

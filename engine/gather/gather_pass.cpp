@@ -10,10 +10,22 @@
 namespace lw {
 namespace {
 
-ShaderConstants with_mode(ShaderConstants constants, GatherSettings settings) {
+using Stage = vk::PipelineStageFlagBits2;
+
+/// Without shadow rays only mirrors are followed.
+float followed_roughness(const GatherSettings& settings) {
+    return settings.shadow_rays > 0 ? settings.followed_roughness : std::sqrt(smallest_alpha);
+}
+
+ShaderConstants constants_for(const Resident& resident, const GatherSettings& settings) {
+    ShaderConstants constants = resident.constants();
     constants[constant_gather_mode] = settings.mode;
     constants[constant_heap_size] = settings.mode == 0 ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
     constants[constant_has_shadow_rays] = settings.shadow_rays > 0;
+    constants[constant_followed_roughness] = floatBitsToUint(followed_roughness(settings));
+    constants[constant_has_followed] =
+        settings.mode != gather_mode_inspect &&
+        (resident.narrowest_lobe() < followed_roughness(settings) || constants[constant_looks_through]);
     return constants;
 }
 
@@ -28,46 +40,79 @@ Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& s
     frame.shadow_rays = settings.shadow_rays;
     frame.inverse_irradiance_scale = resident.inverse_irradiance_scale();
     frame.triangle_limit = resident.triangle_count();
+    frame.following = pack_following({0, 0, 0, std::clamp(settings.paths, 1u, most_paths)});
     return frame;
 }
 
 GatherPass::GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings)
-    : resident_(&resident), picture_(&picture) {
+    : resident_(&resident), picture_(&picture), ray_words_(ray_words(uint(resident.scene().lights.size()))) {
     if (settings.mode == 0 && settings.neighbours > PhotonEstimator::heap_size)
         throw Error("gather: exact search takes at most " + std::to_string(PhotonEstimator::heap_size) + " neighbours");
     const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), picture.descriptors().layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(Frame));
-    ShaderConstants constants = with_mode(resident.constants(), settings);
-    const bool has_rays =
-        settings.mode != gather_mode_inspect && (constants[constant_has_direct] || constants[constant_has_mirrors]);
-    for (uint stage = stage_photons; stage <= (has_rays ? stage_rays : stage_photons); ++stage) {
+    ShaderConstants constants = constants_for(resident, settings);
+    const auto make = [&](uint stage, bool of_followed) {
         constants[constant_stage] = stage;
-        stages_.push_back(make_compute_pipeline(device, *layout_, gather_comp, constants));
-    }
+        constants[constant_of_followed] = of_followed;
+        return make_compute_pipeline(device, *layout_, gather_comp, constants);
+    };
+    const bool has_rays = settings.mode != gather_mode_inspect && constants[constant_has_direct];
+    photons_ = make(stage_photons, false);
+    if (has_rays) rays_ = make(stage_rays, false);
+    if (!constants[constant_has_followed]) return;
+    follow_ = make(stage_follow, false);
+    followed_photons_ = make(stage_photons, true);
+    if (has_rays) followed_rays_ = make(stage_rays, true);
+    has_branch_[branch_reflected] = resident.narrowest_lobe() < followed_roughness(settings);
+    has_branch_[branch_through] = constants[constant_looks_through];
 }
 
 void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture) const {
-    using Stage = vk::PipelineStageFlagBits2;
     const vk::DescriptorSet sets[] = {resident_->descriptors().handle(), picture.descriptors().handle()};
-    const uint words = ray_words(uint(resident_->scene().lights.size()));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
     commands.pushConstants<Frame>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, frame);
-    if (stages_.size() > 1) {
-        const std::vector<RayPixels> empty(words, {0, 1, 1, 0});
-        commands.updateBuffer<RayPixels>(picture.ray_lists().handle(), 0, empty);
-        stage_barrier(commands, Stage::eTransfer, Stage::eComputeShader);
-    }
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *stages_[stage_photons]);
+    if (rays_ || follow_) empty_lists(commands, picture, ray_words_ + (follow_ ? branch_count : 0));
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *photons_);
     const auto groups = [](uint pixels) { return (pixels + gather_group_side - 1) / gather_group_side; };
     commands.dispatch(groups(frame.width), groups(frame.height), 1);
-    if (stages_.size() == 1) return;
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *stages_[stage_rays]);
-    for (uint word = 0; word < words; ++word) {
-        stage_barrier(commands, Stage::eComputeShader, Stage::eComputeShader | Stage::eDrawIndirect);
+    if (rays_) record_rays(commands, picture, *rays_);
+    if (!follow_) return;
+    const uint paths = unpack_following(frame.following).paths;
+    for (uint branch = 0; branch < branch_count; ++branch)
+        for (uint path = 0; has_branch_[branch] && path < paths; ++path)
+            for (uint depth = 0; depth < 2; ++depth) record_path(commands, picture, {branch, depth, path, paths});
+}
+
+void GatherPass::empty_lists(vk::CommandBuffer commands, const Picture& picture, uint lists) const {
+    stage_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Stage::eTransfer);
+    commands.updateBuffer<RayPixels>(picture.ray_lists().handle(), 0, std::vector<RayPixels>(lists, {0, 1, 1, 0}));
+    stage_barrier(commands, Stage::eTransfer, Stage::eComputeShader);
+}
+
+void GatherPass::record_rays(vk::CommandBuffer commands, const Picture& picture, vk::Pipeline rays) const {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, rays);
+    for (uint word = 0; word < ray_words_; ++word) {
         commands.pushConstants(*layout_, vk::ShaderStageFlagBits::eCompute, offsetof(Frame, ray_word), sizeof word,
                                &word);
-        commands.dispatchIndirect(picture.ray_lists().handle(), word * sizeof(RayPixels));
+        dispatch_list(commands, picture, word);
     }
+}
+
+void GatherPass::record_path(vk::CommandBuffer commands, const Picture& picture, const Following& following) const {
+    const uint packed = pack_following(following), list = ray_words_ + following.branch;
+    empty_lists(commands, picture, ray_words_);
+    commands.pushConstants(*layout_, vk::ShaderStageFlagBits::eCompute, offsetof(Frame, following), sizeof packed,
+                           &packed);
+    for (const vk::Pipeline pipeline : {*follow_, *followed_photons_}) {
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
+        dispatch_list(commands, picture, list);
+    }
+    if (followed_rays_) record_rays(commands, picture, *followed_rays_);
+}
+
+void GatherPass::dispatch_list(vk::CommandBuffer commands, const Picture& picture, uint list) const {
+    stage_barrier(commands, Stage::eComputeShader, Stage::eComputeShader | Stage::eDrawIndirect);
+    commands.dispatchIndirect(picture.ray_lists().handle(), list * sizeof(RayPixels));
 }
 
 }  // namespace lw

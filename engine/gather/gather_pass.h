@@ -19,10 +19,18 @@ class GatherPass {
     void record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture) const;
 
   private:
+    void empty_lists(vk::CommandBuffer commands, const Picture& picture, uint lists) const;
+    void record_rays(vk::CommandBuffer commands, const Picture& picture, vk::Pipeline rays) const;
+    void record_path(vk::CommandBuffer commands, const Picture& picture, const Following& following) const;
+    void dispatch_list(vk::CommandBuffer commands, const Picture& picture, uint list) const;
+
     const Resident* resident_;
     const Picture* picture_;
+    uint ray_words_;
     vk::UniquePipelineLayout layout_;
-    std::vector<vk::UniquePipeline> stages_;  // photons, and rays where the scene has lamps or mirrors to follow
+    vk::UniquePipeline photons_, rays_;                             // the latter where the scene has lamps
+    vk::UniquePipeline follow_, followed_photons_, followed_rays_;  // where view paths go on
+    std::array<bool, branch_count> has_branch_{};
 };
 
 }  // namespace lw

@@ -11,8 +11,8 @@ LiveView::LiveView(const Device& device, const Resident& resident, vk::Extent2D 
       resident_(&resident),
       size_(size),
       visibility_(device, resident, size),
-      a_(device, visibility_.texture(), ray_words(uint(resident.scene().lights.size()))),
-      b_(device, visibility_.texture(), ray_words(uint(resident.scene().lights.size()))),
+      a_(device, visibility_.texture(), resident),
+      b_(device, visibility_.texture(), resident),
       view_(device, visibility_.texture(), a_, b_) {}
 
 void LiveView::record_visibility(vk::CommandBuffer commands, const Frame& frame) const {
@@ -21,8 +21,9 @@ void LiveView::record_visibility(vk::CommandBuffer commands, const Frame& frame)
 }
 
 GatherPass& LiveView::pass_for(const GatherSettings& settings) {
-    const std::array<uint, 3> key{settings.mode, settings.shadow_rays > 0,
-                                  settings.mode == gather_mode_exact ? settings.neighbours : 0};
+    const std::array<uint, 4> key{settings.mode, settings.shadow_rays > 0,
+                                  settings.mode == gather_mode_exact ? settings.neighbours : 0,
+                                  floatBitsToUint(settings.followed_roughness)};
     std::unique_ptr<GatherPass>& pass = passes_[key];
     if (!pass) pass = std::make_unique<GatherPass>(*device_, *resident_, a_, settings);
     return *pass;

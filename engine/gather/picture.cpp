@@ -7,13 +7,14 @@
 namespace lw {
 namespace {
 
-std::array<Binding, 6> picture_bindings() {
+std::array<Binding, 7> picture_bindings() {
     return {Binding{binding_visibility, vk::DescriptorType::eSampledImage},
             Binding{binding_radiance},
             Binding{binding_ray_lists},
             Binding{binding_ray_pixels},
             Binding{binding_screen},
-            Binding{binding_light, vk::DescriptorType::eUniformTexelBuffer}};
+            Binding{binding_light, vk::DescriptorType::eUniformTexelBuffer},
+            Binding{binding_followed}};
 }
 
 Buffer plane(const Device& device, vk::Extent2D size, size_t pixel_bytes, const std::string& what) {
@@ -25,19 +26,26 @@ Buffer plane(const Device& device, vk::Extent2D size, size_t pixel_bytes, const 
     return Buffer(device, bytes, what);
 }
 
+uint lists_of(const Resident& resident) {
+    return pixel_lists(uint(resident.scene().lights.size()), resident.may_follow());
+}
+
 }  // namespace
 
-Picture::Picture(const Device& device, const Target& visibility, uint ray_words)
+Picture::Picture(const Device& device, const Target& visibility, const Resident& resident)
     : radiance_(plane(device, visibility.size(), 16, "radiance")),
-      ray_lists_(device, ray_words * sizeof(RayPixels), "lists of pixels"),
-      ray_pixels_(plane(device, visibility.size(), ray_words * sizeof(uint), "listed pixels")),
+      ray_lists_(device, lists_of(resident) * sizeof(RayPixels), "lists of pixels"),
+      ray_pixels_(plane(device, visibility.size(), lists_of(resident) * sizeof(uint), "listed pixels")),
       screen_(plane(device, visibility.size(), 4, "screen")),
+      followed_(plane(device, resident.may_follow() ? visibility.size() : vk::Extent2D{1, 1}, sizeof(Followed),
+                      "ends of followed paths")),
       descriptors_(device, picture_bindings()) {
     descriptors_.set_target(binding_visibility, visibility);
     descriptors_.set_buffer(binding_radiance, radiance_);
     descriptors_.set_buffer(binding_ray_lists, ray_lists_);
     descriptors_.set_buffer(binding_ray_pixels, ray_pixels_);
     descriptors_.set_buffer(binding_screen, screen_);
+    descriptors_.set_buffer(binding_followed, followed_);
     light_ = view_as_texels(device, radiance_, vk::Format::eR32G32B32A32Sfloat);
     descriptors_.set_texels(binding_light, *light_);
 }

@@ -1,5 +1,6 @@
 // The picture being made, in GPU memory, as descriptor set 1 of gather and tone mapping (shaders/frame.h).
 #pragma once
+#include "gather/resident.h"
 #include "gather/visibility_pass.h"
 
 namespace lw {
@@ -7,15 +8,15 @@ namespace lw {
 class Picture {
   public:
     /// Throws Error when a plane of this size is beyond the device's buffers.
-    /// ray_words: ray_words(lamps), what rays are traced for.
-    Picture(const Device& device, const Target& visibility, uint ray_words);
+    /// With lists of pixels, and where paths end when view paths may go on, as the resident scene needs them.
+    Picture(const Device& device, const Target& visibility, const Resident& resident);
     const DescriptorSet& descriptors() const { return descriptors_; }
     const Buffer& radiance() const { return radiance_; }    // vec4: RGB cd/m2, illuminance lx
-    const Buffer& ray_lists() const { return ray_lists_; }  // RayPixels per word of lamps
+    const Buffer& ray_lists() const { return ray_lists_; }  // RayPixels per list
     const Buffer& screen() const { return screen_; }        // RGBA8
 
   private:
-    Buffer radiance_, ray_lists_, ray_pixels_, screen_;
+    Buffer radiance_, ray_lists_, ray_pixels_, screen_, followed_;
     vk::UniqueBufferView light_;
     DescriptorSet descriptors_;
 };

@@ -44,11 +44,13 @@ bool any_texture(const Scene& scene, TextureSlot Material::*slot) {
                        [=](const Material& m) { return (m.*slot).texture >= 0; });
 }
 
-bool has_mirrors(const Scene& scene) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
-        const bool textured = m.metallic_roughness_texture.texture >= 0;
-        return m.metallic > 0.999f && (textured || m.roughness * m.roughness < smallest_alpha);
-    });
+/// The least roughness of a surface with a specular lobe; 1 without any.
+float narrowest_roughness(const Scene& scene) {
+    float least = 1;
+    for (const Material& m : scene.materials)
+        if ((m.metallic > 0 || m.specular > 0) && !(m.flags & material_unlit))
+            least = std::min(least, m.metallic_roughness_texture.texture >= 0 ? 0.0f : m.roughness);
+    return least;
 }
 
 /// Bytes that the scene and the map take on the device: corners of triangles, textures, the map with the light of its
@@ -132,7 +134,10 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     constants_[constant_has_alpha] = any_material(scene, material_alpha_mask | material_alpha_blend);
     constants_[constant_has_transmission] = std::any_of(scene.materials.begin(), scene.materials.end(),
                                                         [](const Material& m) { return m.transmission > 0; });
-    constants_[constant_has_mirrors] = !bvh.nodes.empty() && has_mirrors(scene);
+    const bool can_follow = !bvh.nodes.empty();
+    narrowest_lobe_ = can_follow ? narrowest_roughness(scene) : 1.0f;
+    constants_[constant_looks_through] =
+        can_follow && (constants_[constant_has_transmission] || any_material(scene, material_alpha_blend));
     constants_[constant_has_caustics] = map.caustic_grids > 0;
     constants_[constant_has_smooth_caustics] = !map.smooth_caustics.empty();
     constants_[constant_has_shadow_masks] = !map.shadow_masks.empty();

@@ -23,7 +23,8 @@ struct ResidentSettings {
 class Resident {
   public:
     /// Uploads everything; all lights at factor 1. Scene and map must outlive it; one without triangle_maps means no
-    /// photons. Without `bvh` no rays are traced: no shadow rays, and mirrors are black. Throws Error saying which
+    /// photons. Without `bvh` no rays are traced: no shadow rays, mirrors are black, glass is looked
+    /// straight through. Throws Error saying which
     /// array does not fit, and what would.
     Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh = {},
              ResidentSettings settings = {});
@@ -36,8 +37,12 @@ class Resident {
 
     const Scene& scene() const { return *scene_; }
     const DescriptorSet& descriptors() const { return descriptors_; }
-    /// Specialization constants of the scene; gather_mode and heap_size are left to the pass.
+    /// Specialization constants of the scene; those of the gather are left to the pass.
     const ShaderConstants& constants() const { return constants_; }
+    /// The least roughness of a surface whose lobe could be followed by rays; 1: there is none.
+    float narrowest_lobe() const { return narrowest_lobe_; }
+    /// True when view paths may go on from what the eye sees.
+    bool may_follow() const { return narrowest_lobe_ < 1 || constants_[constant_looks_through]; }
     uint triangle_count() const { return triangle_count_; }
     /// Each cluster_triangles triangles, in their order.
     struct Cluster {
@@ -77,6 +82,7 @@ class Resident {
     float inverse_flux_scale_;
     float ray_epsilon_;
     float scene_size_;
+    float narrowest_lobe_ = 1;
     DescriptorSet descriptors_;
     std::vector<Buffer> buffers_;
     std::vector<vk::UniqueBufferView> views_;

@@ -277,10 +277,10 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     const Partition partition(scene, photons, settings);
     std::vector<Photon> caustic, others;
     for (const Photon& p : photons.records)
-        if (p.path() == path_caustic) caustic.push_back(p);
+        if (is_caustic(p.path())) caustic.push_back(p);
     if (!caustic.empty())
         std::copy_if(photons.records.begin(), photons.records.end(), std::back_inserter(others),
-                     [](const Photon& p) { return p.path() != path_caustic; });
+                     [](const Photon& p) { return !is_caustic(p.path()); });
     const std::vector<uint> kept = append_grids(scene, partition, caustic.empty() ? photons.records : others, map);
     const std::vector<NodePoint> nodes = add_lattices(scene, caster, partition, kept, map);
     if (caustic.empty()) return map;

@@ -1,10 +1,13 @@
 // Density estimation and direct light on the CPU: the text of shaders/gather.glsl and direct.glsl over a PhotonMap; the
 // oracle of the gather shader.
 #pragma once
+#include <cmath>
+
 #include "maps/cells.h"
 #include "maps/photon_map.h"
 #include "scene/bvh.h"
 #include "scene/surface.h"
+#include "shaders/followed.h"
 
 namespace lw {
 
@@ -12,7 +15,9 @@ namespace lw {
 struct GatherSettings {
     uint mode = gather_mode_cached;
     uint neighbours = 300;  // photons per estimate
-    uint shadow_rays = 4;   // per emissive mesh; 0: no rays at all, shadows as sharp as the lattice
+    uint shadow_rays = 4;   // per emissive mesh; 0: none, shadows as sharp as the lattice, of lobes mirrors alone followed
+    uint paths = 1;         // per pixel along lobes that are followed
+    float followed_roughness = widest_followed_roughness;  // lobes of surfaces smoother than this are followed by rays
 };
 
 /// Photon estimate at surface points; read-only view, scene and map must outlive it.
@@ -48,7 +53,9 @@ class PhotonEstimator : public SurfaceReader {
           emitters(scene.emitters.data()),
           shadow_rays(settings.shadow_rays),
           has_shadow_rays(settings.shadow_rays > 0),
-          has_mirrors(!bvh.nodes.empty()),
+          has_followed(!bvh.nodes.empty()),
+          looks_through(!bvh.nodes.empty()),
+          followed_roughness(settings.shadow_rays > 0 ? settings.followed_roughness : std::sqrt(smallest_alpha)),
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
         if (map.irradiance.empty()) return;
         const CellLight cells(scene, map);
@@ -90,10 +97,12 @@ class PhotonEstimator : public SurfaceReader {
 
 #include "shaders/shade.glsl"
 
+#include "shaders/follow.glsl"
+
     /// The estimate at (triangle, barycentrics) seen from direction `to_view` (unit). `seed` picks the points on mesh
-    /// lamps.
-    Gathered estimate(uint triangle, vec2 barycentrics, vec3 to_view, uint seed = 0) const {
-        return shade(triangle, barycentrics, surface_at(triangle, barycentrics).position + to_view, seed);
+    /// lamps, `pixel` the paths that go on.
+    Gathered estimate(uint triangle, vec2 barycentrics, vec3 to_view, uint seed = 0, uvec2 pixel = uvec2(0)) const {
+        return shade(triangle, barycentrics, surface_at(triangle, barycentrics).position + to_view, seed, pixel);
     }
 
   protected:
@@ -122,7 +131,8 @@ class PhotonEstimator : public SurfaceReader {
     uint shadow_rays;
     bool has_shadow_rays;
     static constexpr bool has_mesh_lamps = true, has_profiles = true;
-    bool has_mirrors;
+    bool has_followed, looks_through;
+    float followed_roughness;
     bool has_direct;
     std::vector<uvec4> cell_light_;  // cached mode only
     std::vector<uint> cell_words_;

@@ -13,6 +13,7 @@ constexpr uint photons_per_estimate = 300;
 constexpr float narrower[] = {0.7f, 0.35f};  // other bandwidths, as parts of the first
 constexpr uint batches = 8;                  // of rays to a mesh lamp, scrambled apart: their spread is the error
 constexpr uint rays_per_batch = 16;
+constexpr uint most_tile_paths = 16;
 constexpr float normal_90 = 1.645f;       // 90 % of a normal distribution lies within
 constexpr float relative_floor = 0.005f;  // packing of the records: RGB9E5 and 16-bit places
 
@@ -50,11 +51,21 @@ class Meter : public PhotonEstimator {
             for (uint lamp = 0; lamp < light_count; ++lamp) variance += add_direct(lamp, m);
         for (const LampShare& share : m.lamps) m.lux += share.lux;
         m.half_width_lux = normal_90 * std::sqrt(variance + relative_floor * relative_floor * m.lux * m.lux);
-        m.luminance = luminance(shade(hit.triangle, hit.barycentrics, viewer, 1).radiance);
+        m.luminance = luminance_of(hit, viewer);
         return m;
     }
 
   private:
+    /// Towards the viewer; mean over the paths of a tile of pixels, as those along lobes meet different surfaces.
+    float luminance_of(const Hit& hit, vec3 viewer) const {
+        const Seen seen = see(hit.triangle, hit.barycentrics, viewer);
+        const uint paths = goes_on(seen, branch_reflected) || goes_on(seen, branch_through) ? most_tile_paths : 1;
+        float sum = 0;
+        for (uint i = 0; i < paths; ++i)
+            sum += luminance(shade(hit.triangle, hit.barycentrics, viewer, 1 + i, uvec2(i / 4, i % 4)).radiance);
+        return sum / float(paths);
+    }
+
     /// Photons within `radius`, per lamp when `shares` is not null.
     Sum add_photons(const SurfaceGrid& grid, vec3 local, const MapPlace& place, float radius,
                     Measurement* shares) const {

@@ -12,8 +12,6 @@ namespace {
 constexpr float brightest_record = 32768;  // RGB9E5 goes to 65408
 constexpr float least_steps = 1.5f;        // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
 
-float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
-
 /// The text of shaders/caustics.glsl at lattice nodes, lamp by lamp.
 class CausticNodes : public PhotonEstimator {
   public:
@@ -44,8 +42,8 @@ class CausticNodes : public PhotonEstimator {
   private:
     size_t record(uint lamp, uint node) const { return size_t(lamp) * nodes_.size() + node; }
 
-    static bool has_any(const std::vector<vec3>& light) {
-        return std::any_of(light.begin(), light.end(), [](const vec3& e) { return largest(e) > 0; });
+    bool has_any(const std::vector<vec3>& light) const {
+        return std::any_of(light.begin(), light.end(), [&](const vec3& e) { return largest(e) > 0; });
     }
 
     /// As records keep it: lux per unit intensity x irradiance_scale, per lamp.

@@ -7,6 +7,12 @@
 
 namespace lw {
 
+/// As path_caustic, but with bounces of narrow lobes among them: a caustic that is nearly as sharp, and one that rays
+/// along the lobes of glossy surfaces find too.
+constexpr uint path_near_caustic = 3;
+
+inline bool is_caustic(uint path) { return path == path_caustic || path == path_near_caustic; }
+
 struct Photon {
     vec3 position;
     vec3 flux;      // lm per unit intensity of its lamp, per RGB
@@ -15,7 +21,7 @@ struct Photon {
     uint origin;    // pack_origin(): lamp, path class, struck side
 
     uint light() const { return origin & light_mask; }
-    uint path() const { return (origin >> path_shift) & 3u; }  // path_direct, path_indirect, path_caustic
+    uint path() const { return (origin >> path_shift) & 3u; }  // path_direct, path_indirect, path_caustic, path_near_caustic
     uint side() const { return origin >> 16; }                 // 0: front of the triangle, 1: back
 };
 

@@ -33,6 +33,13 @@ struct Chunk {
     uint64_t shown = 0;  // hits of surfaces that can show light
 };
 
+/// The class of a path of class `path` that goes on by `next`. Shadow rays pass where light goes straight on.
+uint path_after(uint path, const Scatter& next) {
+    if (!next.narrow || path == path_indirect) return path_indirect;
+    if (!next.specular || path == path_near_caustic) return path_near_caustic;
+    return next.straight ? path : path_caustic;
+}
+
 class Shooter {
   public:
     Shooter(const Scene& scene, const RayCaster& caster, const ShootSettings& settings)
@@ -108,10 +115,7 @@ void Shooter::trace_path(Chunk& chunk, uint64_t index, float share) const {
         const vec3 kept = reflected / survival;
         chunk.absorbed += luminance(flux) - luminance(kept);
         flux = kept;
-        if (!next->specular)
-            path = path_indirect;
-        else if (path == path_direct && !next->straight)  // shadow rays pass where light goes straight on
-            path = path_caustic;
+        path = path_after(path, *next);
         const vec3 ng = back ? -s.geometric_normal : s.geometric_normal;
         direction = next->direction;
         medium = absorption_after(surfaces_, s, direction, medium);

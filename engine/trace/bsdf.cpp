@@ -8,6 +8,7 @@
 namespace lw {
 namespace {
 
+constexpr float narrow_roughness = 0.12f;  // its lobe is some 2 degrees wide
 constexpr float least_share = 0.1f;  // of samples for the lobes of rough glass, whose Fresnel factor varies by facet
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
@@ -25,11 +26,6 @@ struct Lobes {
     vec3 refraction;            // weight of the transmission at normal `n`
     float p_diffuse, p_glossy, p_transmit;
 };
-
-vec3 specular_reflectance(const SurfaceReader& reader, const Surface& s, float cosine, bool inside) {
-    const vec3 metal = s.base_color + (vec3(1) - s.base_color) * reader.schlick_weight(cosine);
-    return reader.dielectric_fresnel(s, cosine, inside) * (1 - s.metallic) + metal * s.metallic;
-}
 
 void share_samples(const SurfaceReader& reader, const Surface& s, Lobes& l) {
     float glossy = largest(l.mirror), transmit = largest(l.refraction);
@@ -59,36 +55,14 @@ Lobes lobes_at(const SurfaceReader& reader, const Surface& s, vec3 to_view) {
     l.alpha = s.roughness * s.roughness;
     l.delta = l.alpha < smallest_alpha;
     l.delta_glass = reader.transmits_smoothly(s);
-    l.mirror = specular_reflectance(reader, s, l.nv, l.inside);
+    l.mirror = reader.specular_reflectance(s, l.nv, l.inside);
     l.refraction = reader.transmitted_part(s, l.nv, l.inside);
     share_samples(reader, s, l);
     return l;
 }
 
-/// Visible normals of GGX (Heitz 2018), local frame, alpha isotropic.
-vec3 sample_visible_normal(vec3 view, float alpha, float u, float v) {
-    const vec3 vh = normalize(vec3(alpha * view.x, alpha * view.y, view.z));
-    const float length2 = vh.x * vh.x + vh.y * vh.y;
-    const vec3 t1 = length2 > 0 ? vec3(-vh.y, vh.x, 0) / std::sqrt(length2) : vec3(1, 0, 0);
-    const vec3 t2 = cross(vh, t1);
-    const vec2 d = sample_disc(u, v);
-    const float blend = 0.5f * (1 + vh.z);
-    const float y = (1 - blend) * std::sqrt(std::max(0.0f, 1 - d.x * d.x)) + blend * d.y;
-    const vec3 h = d.x * t1 + y * t2 + std::sqrt(std::max(0.0f, 1 - d.x * d.x - y * y)) * vh;
-    return normalize(vec3(alpha * h.x, alpha * h.y, std::max(1e-6f, h.z)));
-}
-
-/// D_v(h) / (v.h): the density of the visible normals without the cosine to the viewer.
-float visible_normal_density(float alpha, float nh, float nv) {
-    const float a2 = alpha * alpha;
-    const float t = nh * nh * (a2 - 1) + 1;
-    const float d = a2 / (lw_pi * t * t);
-    const float g1 = 2 * nv / (nv + std::sqrt(a2 + (1 - a2) * nv * nv));
-    return g1 * d / nv;
-}
-
-float reflected_pdf(const Lobes& l, vec3 h) {
-    return visible_normal_density(l.alpha, clamp(dot(l.n, h), 0.0f, 1.0f), l.nv) / 4;
+float reflected_pdf(const SurfaceReader& reader, const Lobes& l, vec3 h) {
+    return reader.visible_normal_density(l.alpha, clamp(dot(l.n, h), 0.0f, 1.0f), l.nv) / 4;
 }
 
 /// Walter et al. 2007, equation 17.
@@ -97,7 +71,7 @@ float refracted_pdf(const SurfaceReader& reader, const Lobes& l, vec3 to_view, v
     const float vh = dot(to_view, h), lh = -dot(to_light, h);
     if (vh <= 0 || lh <= 0) return 0;
     const float root = l.eta_view * vh - l.eta_light * lh;
-    const float density = visible_normal_density(l.alpha, clamp(dot(l.n, h), 0.0f, 1.0f), l.nv) * vh;
+    const float density = reader.visible_normal_density(l.alpha, clamp(dot(l.n, h), 0.0f, 1.0f), l.nv) * vh;
     return density * l.eta_light * l.eta_light * lh / std::max(root * root, 1e-12f);
 }
 
@@ -107,11 +81,11 @@ float smooth_pdf(const SurfaceReader& reader, const Surface& s, const Lobes& l, 
     if (nl < 0) {
         if (!(l.p_transmit > 0) || l.delta_glass) return 0;
         if (s.flags & material_thin)
-            return l.p_transmit * reflected_pdf(l, normalize(to_view + to_light - 2 * nl * l.n));
+            return l.p_transmit * reflected_pdf(reader, l, normalize(to_view + to_light - 2 * nl * l.n));
         return l.p_transmit * refracted_pdf(reader, l, to_view, to_light);
     }
     float pdf = l.p_diffuse * nl / lw_pi;
-    if (l.p_glossy > 0 && !l.delta) pdf += l.p_glossy * reflected_pdf(l, normalize(to_view + to_light));
+    if (l.p_glossy > 0 && !l.delta) pdf += l.p_glossy * reflected_pdf(reader, l, normalize(to_view + to_light));
     return pdf;
 }
 
@@ -132,11 +106,11 @@ std::optional<vec3> transmitted(const SurfaceReader& reader, const Surface& s, c
 /// A mirror direction or one through smooth glass.
 std::optional<Scatter> sample_specular(const SurfaceReader& reader, const Surface& s, const Lobes& l, vec3 to_view,
                                        bool through) {
-    if (!through) return Scatter{normalize(2 * l.nv * l.n - to_view), l.mirror / l.p_glossy, 0, true, false};
+    if (!through) return Scatter{normalize(2 * l.nv * l.n - to_view), l.mirror / l.p_glossy, 0, true, false, true};
     const std::optional<vec3> direction = transmitted(reader, s, l, to_view, l.n);
     if (!direction) return std::nullopt;
     const float index = l.eta_view / l.eta_light;  // radiance is smaller in the thinner medium
-    return Scatter{*direction, l.refraction * (index * index / l.p_transmit), 0, true, reader.passes_straight(s)};
+    return Scatter{*direction, l.refraction * (index * index / l.p_transmit), 0, true, reader.passes_straight(s), true};
 }
 
 std::optional<Scatter> sample_smooth(const SurfaceReader& reader, const Surface& s, const Lobes& l, vec3 to_view,
@@ -145,7 +119,7 @@ std::optional<Scatter> sample_smooth(const SurfaceReader& reader, const Surface&
     const mat3 frame = frame_around(l.n);
     std::optional<vec3> direction;
     if (choice < l.p_transmit + l.p_glossy) {
-        const vec3 h = frame * sample_visible_normal(to_view * frame, l.alpha, u, v);
+        const vec3 h = frame * reader.sample_visible_normal(to_view * frame, l.alpha, sample_disc(u, v));
         direction = choice < l.p_transmit ? transmitted(reader, s, l, to_view, h) : 2 * dot(h, to_view) * h - to_view;
         if (!direction || (dot(*direction, l.n) < 0) != (choice < l.p_transmit)) return std::nullopt;
     } else {
@@ -154,7 +128,8 @@ std::optional<Scatter> sample_smooth(const SurfaceReader& reader, const Surface&
     const float pdf = smooth_pdf(reader, s, l, to_view, *direction);
     if (!(pdf > 0)) return std::nullopt;
     const vec3 value = reader.eval_bsdf(s, l.n, to_view, *direction);
-    return Scatter{*direction, value * (std::abs(dot(l.n, *direction)) / pdf), pdf, false, false};
+    return Scatter{*direction, value * (std::abs(dot(l.n, *direction)) / pdf), pdf, false, false,
+                   choice < l.p_transmit + l.p_glossy && s.roughness < narrow_roughness};
 }
 
 /// What a photon's weight has over that of a path from the eye (Veach 1997, equations 5.13 and 5.18).

@@ -19,6 +19,7 @@ struct Scatter {
     float pdf;       // solid angle, of the lobes that light sampling can evaluate; 0 for specular ones
     bool specular;   // mirror or smooth glass: light sampling does not cover it
     bool straight;   // passed a thin sheet without turning: shadow rays pass there too
+    bool narrow;     // by a lobe so narrow that what it throws on other surfaces is nearly as sharp as a caustic
 };
 
 /// Samples a direction at `s` for a path that comes from `to_view` (unit, away from the surface). nullopt when

@@ -55,7 +55,7 @@ void expect_same(const Baked& baked, uint mode, uint width, uint height) {
         if (s.light >= 0) continue;
         const Gathered expected =
             estimator.estimate(seen[i].triangle, seen[i].barycentrics, normalize(camera.position - s.position),
-                               estimator.hash_uint(uint(i) + estimator.hash_uint(0)));
+                               estimator.hash_uint(uint(i) + estimator.hash_uint(0)), uvec2(uint(i) % width, uint(i) / width));
         const double e = dot(expected.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
         ++compared;
         // A photon exactly at the kernel's rim may fall on either side in float arithmetic of another order.

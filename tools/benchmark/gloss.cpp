@@ -1,0 +1,179 @@
+// Gloss, mirrors, glass and caustics: up to which roughness photons cannot show a lobe, and what the default mode costs and
+// errs in the rooms that have them.
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy.h"
+#include "base/error.h"
+#include "scene/camera.h"
+#include "scene/gltf.h"
+#include "sections.h"
+
+namespace lw {
+namespace {
+
+constexpr float roughnesses[] = {0, 0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.7f, 1};
+constexpr float all_lobes = 2;  // a roughness above all
+
+/// One room with one of its materials at a roughness.
+struct Room {
+    const char* file;
+    const char* material;
+    float roughness;
+};
+
+Scene scene_of(const Bench& bench, const Room& room) {
+    Scene scene = load_gltf(bench.scenes / room.file);
+    const auto found = std::find(scene.material_names.begin(), scene.material_names.end(), room.material);
+    if (found == scene.material_names.end()) throw Error(std::string(room.file) + ": no material " + room.material);
+    scene.materials[size_t(found - scene.material_names.begin())].roughness = room.roughness;
+    char name[96];
+    std::snprintf(name, sizeof name, "%s-%g.gltf", std::filesystem::path(room.file).stem().string().c_str(),
+                  double(room.roughness));
+    scene.path = name;  // what the references are kept under
+    return scene;
+}
+
+struct Size {
+    uint width, height;
+    uint64_t samples;  // of the reference
+};
+
+/// A baked room, its reference, and frames of it.
+class Measured {
+  public:
+    Measured(const Bench& bench, const Room& room, const Size& size, uint64_t photons)
+        : size_(size), baked_(scene_of(bench, room), settings_for(photons), bench.folder), device_(bench.device, baked_) {
+        const ReferenceView view{baked_.scene.cameras[0], size.width, size.height, size.samples};
+        reference_ = cached_reference(bench.folder, baked_.scene, *baked_.caster, view);
+    }
+
+    /// Pixels that see a material; all but them when `others`.
+    std::vector<bool> pixels_of(const char* material) const {
+        std::vector<bool> seen;
+        for (float triangle : reference_.find("triangle")->values) {
+            const uint object = triangle >= 0 ? baked_.scene.triangle_objects[size_t(triangle)] : 0;
+            seen.push_back(triangle >= 0 &&
+                           baked_.scene.material_names[baked_.scene.objects[object].material] == material);
+        }
+        return seen;
+    }
+    TimedFrame render(const GatherSettings& gather, uint frames) const {
+        return device_.render(baked_.scene.cameras[0], {size_.width, size_.height, frames}, gather);
+    }
+    FrameError error(const TimedFrame& frame, const std::vector<bool>& pixels) const {
+        return error_of(frame.rendering.image, reference_, Quantity::luminance, {}, pixels);
+    }
+    /// Pixels whose caustic light exceeds `lux`.
+    std::vector<bool> caustic_pixels() const;
+
+  private:
+    static BakeSettings settings_for(uint64_t photons) {
+        BakeSettings bake;
+        bake.photons = photons;
+        return bake;
+    }
+    Size size_;
+    BakedCase baked_;
+    CaseOnDevice device_;
+    Image reference_;
+};
+
+/// Where photons that came by mirrors and glass alone bring more than half the picture's mean illuminance.
+std::vector<bool> Measured::caustic_pixels() const {
+    const std::vector<float>& lux = reference_.find("illuminance")->values;
+    std::vector<bool> lit(lux.size(), false);
+    if (baked_.map.caustic_grids == 0) return lit;
+    double mean = 0;
+    for (float e : lux) mean += double(e) / double(lux.size());
+    const PhotonEstimator estimator(baked_.scene, baked_.map, baked_.weights, {gather_mode_smooth, 50});
+    const Camera& camera = baked_.scene.cameras[0];
+    for (size_t i = 0; i < lit.size(); ++i) {
+        const auto hit = baked_.caster->nearest(camera.position,
+                                                camera_direction(camera, float(i % size_.width) + 0.5f,
+                                                                 float(i / size_.width) + 0.5f, int(size_.width),
+                                                                 int(size_.height)));
+        if (!hit) continue;
+        const PhotonEstimator::Seen seen = estimator.see(hit->triangle, hit->barycentrics, camera.position);
+        Gathered light = estimator.no_light();
+        estimator.add_caustics(seen.triangle, seen.front, seen.at, seen.surface, seen.n_geometric, seen.n_shading,
+                               seen.to_eye, light);
+        lit[i] = 0.2126 * double(light.irradiance.x) + 0.7152 * double(light.irradiance.y) > 0.5 * mean;
+    }
+    return lit;
+}
+
+/// The error where only the floor is looked at, by photons alone and with the lobe followed.
+std::vector<Row> measure_threshold(const Bench& bench, float roughness) {
+    const Measured room(bench, {"glossy_floor.gltf", "polished", roughness},
+                        {bench.pick(80u, 120u), bench.pick(60u, 90u), bench.pick<uint64_t>(64, 400)},
+                        bench.pick<uint64_t>(200'000, 4'000'000));
+    const std::vector<bool> floor = room.pixels_of("polished");
+    std::vector<Row> rows;
+    for (uint mode : {gather_mode_smooth, gather_mode_cached})
+        for (float followed : {0.0f, all_lobes}) {
+            GatherSettings gather;
+            gather.mode = mode;
+            gather.paths = followed > 0 ? 16 : 1;
+            gather.followed_roughness = followed;
+            const TimedFrame frame = room.render(gather, 1);
+            const FrameError error = room.error(frame, floor);
+            rows.push_back({{"roughness", roughness},
+                            {"mode", name_of_mode(mode)},
+                            {"lobe", followed > 0 ? "followed, 16 paths" : "photons"},
+                            {"rmse_%", 100 * error.rmse_without_noise},
+                            {"bias_%", 100 * error.bias},
+                            {"reference_error_%", 100 * error.reference_error}});
+        }
+    return rows;
+}
+
+std::vector<Row> measure_room(const Bench& bench, const Room& described) {
+    const Measured room(bench, described,
+                        {bench.pick(100u, 160u), bench.pick(75u, 120u), bench.pick<uint64_t>(64, 1024)},
+                        bench.pick<uint64_t>(200'000, 4'000'000));
+    std::vector<Row> rows;
+    for (uint paths : {1u, 4u, 16u}) {
+        GatherSettings gather = default_gather();
+        gather.paths = paths;
+        const TimedFrame frame = room.render(gather, 3);
+        Row row{{"room", described.file},
+                {"material", described.material},
+                {"roughness", described.roughness},
+                {"paths", paths},
+                {"visibility_ms", frame.rendering.times.visibility_ms},
+                {"gather_ms", frame.rendering.times.gather_ms}};
+        const std::vector<bool> caustic = room.caustic_pixels();
+        std::vector<bool> other = caustic;
+        other.flip();
+        add_error(row, room.error(frame, other));
+        if (std::count(caustic.begin(), caustic.end(), true) > 20)
+            row["caustic_rmse_%"] = 100 * room.error(frame, caustic).rmse_without_noise;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::vector<Table> measure_gloss(const Bench& bench) {
+    Table threshold{"gloss", "threshold",
+                    "The polished floor of glossy_floor.gltf at several roughnesses: luminance of the floor's pixels against "
+                    "the path tracer, its specular lobe estimated from photons or followed by rays.",
+                    {}};
+    for (float roughness : roughnesses)
+        for (Row& row : measure_threshold(bench, roughness)) threshold.rows.push_back(std::move(row));
+    Table rooms{"gloss", "rooms",
+                "Rooms of gloss, metal and glass in the default mode, luminance against the path tracer; caustic: pixels "
+                "lit by mirrors and glass alone with more than half the picture's mean illuminance, left out of the rest.",
+                {}};
+    for (const Room& room :
+         {Room{"glossy_floor.gltf", "polished", 0.05f}, Room{"glossy_floor.gltf", "polished", 0.2f},
+          Room{"glossy_floor.gltf", "polished", 0.5f}, Room{"metal_sculpture.gltf", "gold", 0.1f},
+          Room{"metal_sculpture.gltf", "gold", 0.3f}, Room{"metal_sculpture.gltf", "gold", 0.5f},
+          Room{"glass_sphere.gltf", "solid", 0}, Room{"glass_sphere.gltf", "solid", 0.2f}})
+        for (Row& row : measure_room(bench, room)) rooms.rows.push_back(std::move(row));
+    return {threshold, rooms};
+}
+
+}  // namespace lw
