@@ -43,12 +43,12 @@ std::string verdict_cells(const MeasuredSet& measured, const Statistics& s) {
            cell("<span class=" + verdict + ">" + verdict + "</span>");
 }
 
-std::string table_of_fields(const Survey& survey, const Scene& scene, const PowerSetting& ambiance) {
+std::string table_of_fields(const Survey& survey, const PowerSetting& ambiance) {
     std::string text =
         "<table><tr><th>field<th>points<th>E<sub>avg</sub> lx<th>E<sub>min</sub><th>E<sub>max</sub><th>U<sub>0</sub>"
         "<th>U<sub>d</sub><th>doubtful<th>task<th>required<th>result</tr>\n";
     for (const MeasuredSet& measured : survey.sets) {
-        const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
+        const Statistics s = statistics_of(measured, ambiance, survey.maintenance);
         text += "<tr>" + cell(escaped(measured.set.name)) + cell(printed("%zu", s.count)) + lux_cell(s.average) +
                 lux_cell(s.minimum) + lux_cell(s.maximum) +
                 cell(printed("%.2f <span class=note>&plusmn; %.2f</span>", s.u0.value, s.u0.half_width)) +
@@ -58,19 +58,25 @@ std::string table_of_fields(const Survey& survey, const Scene& scene, const Powe
     return text + "</table>\n";
 }
 
+/// "0.5", or by colour "0.9 0.5 0.2".
+std::string power_text(vec3 factor) {
+    if (factor.x == factor.y && factor.y == factor.z) return printed("%.3g", double(factor.x));
+    return printed("R %.2f G %.2f B %.2f", double(factor.x), double(factor.y), double(factor.z));
+}
+
 /// Mean lux of a field that each lamp brings.
 std::string table_of_lamps(const Survey& survey, const Scene& scene, const PowerSetting& ambiance) {
     std::string text = "<table><tr><th>lamp<th>power";
     for (const MeasuredSet& measured : survey.sets) text += "<th>" + escaped(measured.set.name) + " lx";
     text += "</tr>\n";
     for (size_t lamp = 0; lamp < scene.lights.size(); ++lamp) {
-        const double factor = double(ambiance.factors[lamp]);
-        text += "<tr>" + cell(escaped(scene.light_names[lamp])) + cell(printed("%.3g", factor));
+        const vec3 factor = ambiance.factors[lamp];
+        text += "<tr>" + cell(escaped(scene.light_names[lamp])) + cell(power_text(factor));
         for (const MeasuredSet& measured : survey.sets) {
             double sum = 0, count = 0;
             for (const Reading& reading : measured.readings)
-                if (!reading.blocked) sum += lux_of_lamp(reading, scene, lamp), count += 1;
-            text += cell(printed("%.4g", count > 0 ? sum / count * factor * double(survey.maintenance) : 0.0));
+                if (!reading.blocked) sum += lux_of_lamp(reading, lamp, factor), count += 1;
+            text += cell(printed("%.4g", count > 0 ? sum / count * double(survey.maintenance) : 0.0));
         }
         text += "</tr>\n";
     }
@@ -89,10 +95,10 @@ std::string table_of_points(const MeasuredSet& measured, const std::vector<Value
 }
 
 /// Bounds of the colours of a field: the same in all ambiances.
-std::pair<double, double> range_of(const MeasuredSet& measured, const Scene& scene, const Survey& survey) {
+std::pair<double, double> range_of(const MeasuredSet& measured, const Survey& survey) {
     double low = 1e30, high = 0;
     for (const PowerSetting& ambiance : survey.ambiances)
-        for (const Value& value : values_of(measured, scene, ambiance, survey.maintenance))
+        for (const Value& value : values_of(measured, ambiance, survey.maintenance))
             low = std::min(low, value.lux), high = std::max(high, value.lux);
     high = std::max(high, 1e-6);
     return {std::clamp(low, high * 1e-2, high * 0.8), high};
@@ -101,10 +107,10 @@ std::pair<double, double> range_of(const MeasuredSet& measured, const Scene& sce
 std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const PowerSetting& ambiance) {
     std::string text;
     for (const MeasuredSet& measured : survey.sets) {
-        const std::vector<Value> values = values_of(measured, scene, ambiance, survey.maintenance);
+        const std::vector<Value> values = values_of(measured, ambiance, survey.maintenance);
         if (measured.set.kind == SensorSet::Kind::points) text += table_of_points(measured, values, scene);
         if (measured.set.kind != SensorSet::Kind::grid) continue;
-        const auto [low, high] = range_of(measured, scene, survey);
+        const auto [low, high] = range_of(measured, survey);
         const GridShape& grid = measured.set.grid;
         text += "<h3>" + escaped(measured.set.name) + "</h3>\n" +
                 printed("<p class=note>%u &times; %u points every %.3g &times; %.3g m%s</p>\n", grid.columns, grid.rows,
@@ -153,7 +159,7 @@ std::string report_as_html(const Survey& survey, const Scene& scene, const RayCa
         1e-6 * double(survey.map.stored_photons), double(survey.maintenance));
     for (const std::string& warning : survey.warnings) text += "<p class=warning>" + escaped(warning) + "</p>\n";
     for (const PowerSetting& ambiance : survey.ambiances) {
-        text += "<h2>Ambiance " + escaped(ambiance.name) + "</h2>\n" + table_of_fields(survey, scene, ambiance);
+        text += "<h2>Ambiance " + escaped(ambiance.name) + "</h2>\n" + table_of_fields(survey, ambiance);
         text += fields_of(survey, scene, caster, ambiance);
         text += pictures_of(survey, scene, caster, ambiance, cameras);
         text += "<h3>Share of each lamp, mean of the field</h3>\n" + table_of_lamps(survey, scene, ambiance);
