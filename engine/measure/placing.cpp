@@ -36,6 +36,17 @@ std::optional<Hit> surface_under(const SurfaceReader& surfaces, const RayCaster&
     return std::abs(dot(n, sensor.normal)) < least_alignment ? std::nullopt : hit;
 }
 
+bool is_inside(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor) {
+    const mat3 frame = frame_around(sensor.normal);
+    for (int i = 0; i < directions_beside; ++i) {
+        const vec3 direction = frame * direction_of(float(i + 1) / (directions_beside + 1), 0.618f * float(i));
+        const std::optional<Hit> hit = caster.nearest(sensor.position, direction);
+        if (!hit || dot(surfaces.surface_at(hit->triangle, hit->barycentrics).geometric_normal, direction) < 0)
+            return false;
+    }
+    return true;
+}
+
 bool is_near_border(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor) {
     if (sensor.response != Response::planar) return false;
     const bool lies = surface_under(surfaces, caster, sensor).has_value();

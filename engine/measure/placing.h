@@ -15,6 +15,9 @@ Sensor lifted(const SurfaceReader& surfaces, const RayCaster& caster, Sensor sen
 /// The surface that a planar sensor measures: within 2 mm behind it and parallel to it.
 std::optional<Hit> surface_under(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor);
 
+/// True when a sensor stands in a solid object: all around it looks at back sides.
+bool is_inside(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor);
+
 /// True when a wall stands, or the surface it measures ends, within 1 cm beside a planar sensor: a light meter's head
 /// is as large, and models are hardly more exact.
 bool is_near_border(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor);

@@ -19,8 +19,7 @@ constexpr double fewest_photons = 100;
 std::string doubt_of(const Reading& reading, const Value& value) {
     char text[96] = "";
     if (reading.blocked) return "inside or right under an object";
-    const auto dark = [](ChannelLux lamp) { return lamp == vec3(0); };
-    if (std::all_of(reading.lamps.begin(), reading.lamps.end(), dark)) return "no light found";
+    if (is_dark(reading)) return "no light found";
     if (value.photons < fewest_photons && value.photon_error > 0.02 * value.lux) {
         std::snprintf(text, sizeof text, "too few photons (%.0f effective)", value.photons);
     } else if (value.relative() > 0.1) {
@@ -56,6 +55,10 @@ double spread_of(const Reading& reading, std::span<const vec3> factors, double m
 }
 
 }  // namespace
+
+bool is_dark(const Reading& reading) {
+    return std::all_of(reading.lamps.begin(), reading.lamps.end(), [](ChannelLux lamp) { return lamp == vec3(0); });
+}
 
 double lux_of_lamp(const Reading& reading, size_t lamp, vec3 factor) { return sum_of(factor, reading.lamps[lamp]); }
 

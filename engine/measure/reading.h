@@ -45,6 +45,9 @@ struct Value {
 /// The value with each lamp at `factors[l]` of the file's power, by colour, and `maintenance` of its light left.
 Value value_of(const Reading& reading, std::span<const vec3> factors, float maintenance = 1);
 
+/// True when no lamp was found at all.
+bool is_dark(const Reading& reading);
+
 /// Lux of one lamp at `factor` of the file's power.
 double lux_of_lamp(const Reading& reading, size_t lamp, vec3 factor = vec3(1));
 

@@ -39,7 +39,8 @@ std::string verdict_cells(const MeasuredSet& measured, const Statistics& s) {
     if (measured.set.task.empty()) return cell("") + cell("") + cell("");
     const Task& task = find_task(measured.set.task);
     const std::string verdict = name_of(judge(s, task).both());
-    return cell(escaped(task.name)) + cell(printed("%g lx, U0 %.2g", task.illuminance, task.uniformity)) +
+    return cell(escaped(task.name) + printed(" <span class=note>EN 12464-1:%d</span>", task.edition)) +
+           cell(printed("%g lx, U0 %.2g", task.illuminance, task.uniformity)) +
            cell("<span class=" + verdict + ">" + verdict + "</span>");
 }
 
@@ -104,6 +105,53 @@ std::pair<double, double> range_of(const MeasuredSet& measured, const Survey& su
     return {std::clamp(low, high * 1e-2, high * 0.8), high};
 }
 
+/// How a grid lies: its points, the corner that is drawn at the top left, and where its columns and rows go.
+std::string note_of(const SensorSet& set, const Scene& scene) {
+    const auto axis = [](vec3 v) { return v.x != 0 ? "x" : v.y != 0 ? "y" : "z"; };
+    const GridShape& grid = set.grid;
+    const glm::dvec3 corner = glm::dvec3(grid.corner) + scene.origin;
+    return printed(
+        "<p class=note>%u &times; %u points every %.3g &times; %.3g m%s; top left %.2f, %.2f, %.2f m, "
+        "to the right +%s, down +%s</p>\n",
+        grid.columns, grid.rows, double(length(grid.across)), double(length(grid.along)),
+        set.sensors[0].response == Response::cylindrical ? ", cylindrical" : "", corner.x, corner.y, corner.z,
+        axis(grid.across), axis(grid.along));
+}
+
+/// Which values should not be signed, and why.
+std::string table_of_doubts(const Survey& survey, const PowerSetting& ambiance) {
+    constexpr size_t most = 20;
+    std::string rows;
+    size_t count = 0;
+    for (const MeasuredSet& measured : survey.sets) {
+        const std::vector<Value> values = values_of(measured, ambiance, survey.maintenance);
+        for (size_t i = 0; i < values.size(); ++i) {
+            if (values[i].doubt.empty() || measured.readings[i].blocked || ++count > most) continue;
+            rows += "<tr>" + cell(escaped(measured.set.name)) + cell(escaped(name_of_sensor(measured.set, i))) +
+                    lux_cell({values[i].lux, values[i].half_width}) + cell(escaped(values[i].doubt)) + "</tr>\n";
+        }
+    }
+    if (count == 0) return "";
+    if (count > most) rows += printed("<tr><td>and %zu more, in the CSV</tr>\n", count - most);
+    return "<h3>Values that should not be trusted</h3>\n<table><tr><th>field<th>sensor<th>lx<th>why</tr>\n" + rows +
+           "</table>\n";
+}
+
+/// What path tracing says of the intervals.
+std::string table_of_agreement(const Survey& survey) {
+    if (survey.sets.empty() || survey.sets[0].traced.empty()) return "";
+    const PowerSetting& ambiance = survey.ambiances[0];
+    std::string text =
+        "<h3>Compared with path tracing</h3>\n<table><tr><th>field<th>sensors<th>intervals that hold"
+        "<th>mean difference</tr>\n";
+    for (const MeasuredSet& measured : survey.sets) {
+        const Agreement a = agreement_of(measured, ambiance, survey.maintenance);
+        text += "<tr>" + cell(escaped(measured.set.name)) + cell(printed("%zu", a.compared)) +
+                cell(printed("%zu", a.inside)) + cell(printed("%+.2f %%", 100 * a.difference)) + "</tr>\n";
+    }
+    return text + "</table>\n";
+}
+
 std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const PowerSetting& ambiance) {
     std::string text;
     for (const MeasuredSet& measured : survey.sets) {
@@ -111,11 +159,7 @@ std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster&
         if (measured.set.kind == SensorSet::Kind::points) text += table_of_points(measured, values, scene);
         if (measured.set.kind != SensorSet::Kind::grid) continue;
         const auto [low, high] = range_of(measured, survey);
-        const GridShape& grid = measured.set.grid;
-        text += "<h3>" + escaped(measured.set.name) + "</h3>\n" +
-                printed("<p class=note>%u &times; %u points every %.3g &times; %.3g m%s</p>\n", grid.columns, grid.rows,
-                        double(length(grid.across)), double(length(grid.along)),
-                        measured.set.sensors[0].response == Response::cylindrical ? ", cylindrical" : "");
+        text += "<h3>" + escaped(measured.set.name) + "</h3>\n" + note_of(measured.set, scene);
         text += grid_drawing(measured, values, plan_view(scene, caster, measured.set, plan_band, plan_width), plan_band,
                              low, high) +
                 legend(low, high);
@@ -155,7 +199,8 @@ std::string report_as_html(const Survey& survey, const Scene& scene, const RayCa
         name + "</title>\n" + std::string(style) + "\n<h1>Illuminance of " + name + "</h1>\n";
     text += printed(
         "<p>%.3g million photons, maintenance factor %.3g. &plusmn; is half the 90&nbsp;%% interval of a value. "
-        "Numbers in red italics should not be trusted, the CSV says why.</p>\n",
+        "Numbers in red italics should not be trusted, for the reasons given; points inside objects are crossed out "
+        "and not counted. Plans show the model below the grid; metres, Y up.</p>\n",
         1e-6 * double(survey.map.stored_photons), double(survey.maintenance));
     for (const std::string& warning : survey.warnings) text += "<p class=warning>" + escaped(warning) + "</p>\n";
     for (const PowerSetting& ambiance : survey.ambiances) {
@@ -163,6 +208,8 @@ std::string report_as_html(const Survey& survey, const Scene& scene, const RayCa
         text += fields_of(survey, scene, caster, ambiance);
         text += pictures_of(survey, scene, caster, ambiance, cameras);
         text += "<h3>Share of each lamp, mean of the field</h3>\n" + table_of_lamps(survey, scene, ambiance);
+        text += table_of_doubts(survey, ambiance);
+        if (&ambiance == &survey.ambiances[0]) text += table_of_agreement(survey);
     }
     return text + "</html>\n";
 }

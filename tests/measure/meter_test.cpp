@@ -177,6 +177,8 @@ TEST(Grid, PointsOfAFileAndTheirErrors) {
     EXPECT_EQ(set.sensor_names[1], "wall");
     EXPECT_EQ(set.sensors[1].normal, vec3(0, 0, 1));
     EXPECT_EQ(set.sensors[2].response, Response::cylindrical);
+    write_text(folder / "marked.csv", "\xEF\xBB\xBFname,x,y,z\r\nseat,1,1.2,1\r\n");  // as spreadsheets write it
+    EXPECT_EQ(read_points(folder / "marked.csv", scene).sensors.size(), 1u);
     write_text(folder / "bad.csv", "name,x,y,z\nseat,1,1.2\n");
     EXPECT_NE(error_of([&] { read_points(folder / "bad.csv", scene); }).find("bad.csv: line 2: "), std::string::npos);
     write_text(folder / "nan.csv", "seat,1,nan,3\n");
@@ -239,6 +241,36 @@ TEST(Program, MeasuresTheCubeToAFileAndAReport) {
     EXPECT_NE(html.find("</html>"), std::string::npos);
     EXPECT_EQ(html.find("http"), std::string::npos) << "nothing outside the file";
     EXPECT_EQ(folder.names().size(), 3u);
+}
+
+TEST(Program, AnErrorAskedForBakesWithoutAMapAndKeepsTheBake) {
+    const TempFolder folder;
+    const std::string scene = folder / "cube.gltf", map = folder / "kept.pmap";
+    std::filesystem::copy_file(LUMENWALK_SOURCE_DIR "/data/cube.gltf", scene);
+    const std::string grid = "mid: -1,0,-1 to 1,0,1 spacing=1";
+    const Outcome baked = run("measure", {scene, "--grid", grid, "--error", "3", "--save-map", map});
+    EXPECT_EQ(baked.exit_code, 0) << baked.err;
+    EXPECT_NE(baked.out.find("million photons"), std::string::npos) << baked.out;
+    EXPECT_NE(baked.out.find("wrote " + map), std::string::npos) << baked.out;
+    const Outcome again = run("measure", {scene, map, "--grid", grid});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(run("measure", {scene, map, "--grid", grid, "--save-map", folder / "x.pmap"}).exit_code, 2);
+    const Outcome nowhere =
+        run("measure", {scene, "--grid", grid, "--photons", "2000", "--save-map", folder / "no/x.pmap"});
+    EXPECT_EQ(nowhere.exit_code, 1);
+    EXPECT_NE(nowhere.err.find("x.pmap"), std::string::npos) << nowhere.err;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"cube.gltf", "kept.pmap"}));
+}
+
+TEST(Program, ComparesItsSensorsWithPathTracing) {
+    const TempFolder folder;
+    const Outcome outcome =
+        run("measure", {"data/cube.gltf", "--photons", "50000", "--grid", "mid: -1,0,-1 to 1,0,1 spacing=0.5",
+                        "--reference", "4000", "--csv", folder / "s.csv", "--report", folder / "r.html"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("path traced: "), std::string::npos) << outcome.out;
+    EXPECT_NE(read_text(folder / "s.csv").find(",yes,"), std::string::npos);
+    EXPECT_NE(read_text(folder / "r.html").find("Compared with path tracing"), std::string::npos);
 }
 
 TEST(Program, FindsTheReflectionsOfAViewAndNoneInItsMatteTwin) {

@@ -131,5 +131,24 @@ TEST(Borders, ValuesWithinACentimetreOfOneAreDoubted) {
         EXPECT_EQ(values[i].doubt == "within 1 cm of a border", near_border[i]) << i << ": " << values[i].doubt;
 }
 
+TEST(Borders, SensorsInsideSolidObjectsAreLeftOut) {
+    LabScene lab;
+    lab.add_room({-2, -2, -2}, {2, 2, 2}, 0.5f);
+    lab.add_point({0, 1, 0}, 100);
+    // A pillar of 0.4 m from floor to ceiling, its faces outwards.
+    lab.add_rectangle("pillar", {1, -2, -1}, {0, 4, 0}, {0.4f, 0, 0}, 0.5f);
+    lab.add_rectangle("pillar", {1, -2, -0.6f}, {0.4f, 0, 0}, {0, 4, 0}, 0.5f);
+    lab.add_rectangle("pillar", {1, -2, -1}, {0, 0, 0.4f}, {0, 4, 0}, 0.5f);
+    lab.add_rectangle("pillar", {1.4f, -2, -1}, {0, 4, 0}, {0, 0, 0.4f}, 0.5f);
+    lab.add_rectangle("pillar", {1, -2, -1}, {0.4f, 0, 0}, {0, 0, 0.4f}, 0.5f);
+    lab.add_rectangle("pillar", {1, 2, -1}, {0, 0, 0.4f}, {0.4f, 0, 0}, 0.5f);
+    const Scene scene = lab.finish();
+    const Survey survey = measured(scene, {make_grid(parse_grid("plane: 0.8,0,-1 to 1.6,0,-0.6 spacing=0.2"), scene)});
+    const Statistics s = statistics_of(survey.sets[0], survey.ambiances[0], 1);
+    EXPECT_EQ(s.blocked, 4u);
+    EXPECT_EQ(s.count, 4u);
+    EXPECT_GT(s.minimum.value, 1);
+}
+
 }  // namespace
 }  // namespace lw
