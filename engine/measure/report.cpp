@@ -39,20 +39,20 @@ std::string verdict_cells(const MeasuredSet& measured, const Statistics& s) {
     if (measured.set.task.empty()) return cell("") + cell("") + cell("");
     const Task& task = find_task(measured.set.task);
     const std::string verdict = name_of(judge(s, task).both());
-    return cell(escaped(task.name) + printed(" <span class=note>EN 12464-1:%d</span>", task.edition)) +
-           cell(printed("%g lx, U0 %.2g", task.illuminance, task.uniformity)) +
+    return cell(escaped(task.name)) +
+           cell(printed("%g lx, U0 %.2g (%d)", task.illuminance, task.uniformity, task.edition)) +
            cell("<span class=" + verdict + ">" + verdict + "</span>");
 }
 
 std::string table_of_fields(const Survey& survey, const PowerSetting& ambiance) {
     std::string text =
         "<table><tr><th>field<th>points<th>E<sub>avg</sub> lx<th>E<sub>min</sub><th>E<sub>max</sub><th>U<sub>0</sub>"
-        "<th>U<sub>d</sub><th>doubtful<th>task<th>required<th>result</tr>\n";
+        "<th>U<sub>d</sub><th>doubtful<th>task<th>EN 12464-1<th>result</tr>\n";
     for (const MeasuredSet& measured : survey.sets) {
         const Statistics s = statistics_of(measured, ambiance, survey.maintenance);
         text += "<tr>" + cell(escaped(measured.set.name)) + cell(printed("%zu", s.count)) + lux_cell(s.average) +
                 lux_cell(s.minimum) + lux_cell(s.maximum) +
-                cell(printed("%.2f <span class=note>&plusmn; %.2f</span>", s.u0.value, s.u0.half_width)) +
+                cell(printed("%.2f <span class=note>&plusmn; %.1g</span>", s.u0.value, s.u0.half_width)) +
                 cell(printed("%.2f", s.ud.value)) + cell(printed("%zu", s.doubtful)) + verdict_cells(measured, s) +
                 "</tr>\n";
     }
