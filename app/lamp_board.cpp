@@ -54,7 +54,8 @@ LampBoard with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vecto
         lamp.dimmer = setting.factor;
         lamp.on = setting.factor > 0;
         if (!lamp.on) lamp.dimmer = 1;
-        lamp.color = setting.color;
+        lamp.color =
+            factor_of({1, setting.color, setting.kelvin}, scene.lights[size_t(&lamp - board.data())].intensity);
     }
     return board;
 }

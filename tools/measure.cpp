@@ -5,10 +5,12 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/replaced_file.h"
 #include "file/map_file.h"
+#include "maps/bake_memory.h"
 #include "maps/build.h"
 #include "measure/grid.h"
 #include "measure/reflections.h"
@@ -22,11 +24,13 @@
 
 namespace {
 
+constexpr uint64_t photons_to_start_with = 200'000;
+
 struct Options {
-    std::string scene, map, csv, fields_csv, report, reflections, reflections_csv;
+    std::string scene, map, saved_map, csv, fields_csv, report, reflections, reflections_csv;
     std::vector<std::string> points, grids, surfaces, photometry, powers, ambiances, cameras;
     double error_percent = 0;
-    uint64_t photons = 0;
+    uint64_t photons = 0, reference_paths = 0;
     unsigned threads = 0;
     lw::SurveySettings survey;
     lw::ReflectionLimits limits;
@@ -38,17 +42,24 @@ std::string misuse_of(const Options& o) {
         return "say what to measure: --points, --grid, --surface or --reflections";
     if (!o.reflections_csv.empty() && o.reflections.empty()) return "--reflections-csv: needs --reflections CAMERA";
     if (!o.reflections.empty() && o.ambiances.size() > 1) return "--reflections: takes one --ambiance";
-    if (o.photons > 0 && !o.map.empty()) return "--photons bakes, so it takes no MAP";
+    if (o.photons > 0 && !o.map.empty()) return "--photons bakes, so it takes no MAP; --save-map FILE keeps the bake";
+    if (!o.saved_map.empty() && o.photons == 0 && o.error_percent == 0)
+        return "--save-map: needs --photons or --error, which bake";
+    if (!o.has_sensors() && (o.error_percent > 0 || !o.csv.empty() || !o.report.empty()))
+        return "--error, --csv and --report: say what to measure: --points, --grid or --surface";
     for (const std::string& power : o.powers)
         if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
     return "";
 }
 
+/// The map to read: the file, or a bake in memory. --error may start without either: it bakes until it is reached.
 lw::PhotonMap map_of(const Options& o, const lw::Scene& scene, const lw::RayCaster& caster) {
-    if (o.photons == 0)
-        return lw::load_photon_map(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map), scene);
+    const std::filesystem::path path = o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map);
+    const bool starts_anew = o.error_percent > 0 && o.map.empty() && !std::filesystem::exists(path);
+    if (o.photons == 0 && !starts_anew) return lw::load_photon_map(path, scene);
     lw::BakeSettings settings;
-    settings.photons = o.photons;
+    settings.photons = o.photons > 0 ? o.photons : photons_to_start_with;
+    lw::check_bake_fits(scene, settings, lw::available_memory());
     return lw::build_photon_map(scene, caster, lw::shoot_photons(scene, caster, {settings.photons, settings.seed}),
                                 settings);
 }
@@ -64,8 +75,7 @@ std::vector<lw::SensorSet> sets_of(const Options& o, const lw::Scene& scene) {
 std::vector<lw::PowerSetting> ambiances_of(const Options& o, const lw::Scene& scene) {
     std::vector<lw::PowerSetting> ambiances;
     if (o.ambiances.empty() || !o.powers.empty())
-        ambiances.push_back(
-            {o.powers.empty() ? "all" : "powers", lw::luminous_factors(scene, lw::parse_powers(scene, o.powers))});
+        ambiances.push_back({o.powers.empty() ? "all" : "powers", lw::parse_powers(scene, o.powers)});
     for (const std::string& text : o.ambiances) ambiances.push_back(lw::parse_ambiance(text, scene));
     return ambiances;
 }
@@ -78,12 +88,26 @@ void write_text(const std::string& path, const std::string& text) {
     std::printf("wrote %s\n", path.c_str());
 }
 
+/// Says how many photons were read, and writes a bake that was made if it shall be kept.
+void keep_map(const Options& o, const lw::Survey& survey) {
+    const bool baked = survey.bakes > 0 || o.photons > 0;
+    std::printf("%.4g million photons%s\n", 1e-6 * double(survey.map.stored_photons),
+                survey.bakes > 0 ? ", baked for the error asked for"
+                : baked          ? ", baked in memory"
+                                 : "");
+    if (!o.saved_map.empty()) {
+        lw::save_photon_map(o.saved_map, survey.map);
+        std::printf("wrote %s\n", o.saved_map.c_str());
+    } else if (survey.bakes > 0) {
+        std::printf("this bake is not kept; --save-map FILE writes it\n");
+    }
+}
+
 /// Bright reflections of lamps in one view, traced without photons.
 void report_reflections(const Options& o, const lw::Scene& scene, const lw::RayCaster& caster) {
     const lw::Camera& camera = lw::find_camera(scene, o.reflections);
     const lw::PowerSetting powers = ambiances_of(o, scene).back();
-    const std::vector<lw::vec3> weights =
-        lw::light_weights(scene, std::vector<lw::vec3>(powers.factors.begin(), powers.factors.end()));
+    const std::vector<lw::vec3> weights = lw::light_weights(scene, powers.factors);
     lw::ReflectionSettings settings;
     settings.limits = o.limits;
     settings.seed = o.survey.meter.seed;
@@ -109,33 +133,35 @@ void measure(Options& o) {
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::vector<lw::SensorSet> sets = sets_of(o, scene);
     std::vector<lw::PowerSetting> ambiances = ambiances_of(o, scene);
-    for (const std::string& path : {o.csv, o.fields_csv, o.report, o.reflections_csv})
-        if (!path.empty()) lw::check_can_create(path);
+    for (const std::string& path : {o.csv, o.fields_csv, o.report, o.reflections_csv, o.saved_map})
+        if (!path.empty()) lw::check_can_create(path, {o.scene});
     for (const std::string& camera : o.cameras) lw::find_camera(scene, camera);
     const lw::RayCaster caster(scene);
     if (!o.reflections.empty()) report_reflections(o, scene, caster);
     if (!o.has_sensors()) return;
-    const lw::Survey survey =
+    lw::Survey survey =
         lw::make_survey(scene, caster, map_of(o, scene, caster), std::move(sets), std::move(ambiances), o.survey);
+    lw::add_pins(scene, caster, survey);
+    if (o.reference_paths > 0) lw::trace_survey(scene, caster, o.reference_paths, o.survey.meter.seed, survey);
     for (const std::string& warning : survey.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     for (const std::string& text : o.photometry)
         std::printf("%s: %s\n", text.c_str(),
                     lw::summary_of(lw::read_photometry(text.substr(text.find('=') + 1))).c_str());
-    std::printf("%s", lw::fields_as_text(survey, scene).c_str());
-    std::printf("+- half the 90 %% interval; %.3g million photons%s, maintenance factor %g\n",
-                1e-6 * double(survey.map.stored_photons),
-                survey.bakes > 0 ? " (baked again for the error asked for)" : "", double(survey.maintenance));
+    std::printf("%s", lw::fields_as_text(survey).c_str());
+    std::printf("+- half the 90 %% interval; maintenance factor %g\n", double(survey.maintenance));
+    if (o.reference_paths > 0) std::printf("%s", lw::agreement_as_text(survey).c_str());
+    keep_map(o, survey);
     write_text(o.csv, lw::sensors_as_csv(survey, scene));
-    write_text(o.fields_csv, lw::fields_as_csv(survey, scene));
+    write_text(o.fields_csv, lw::fields_as_csv(survey));
     if (!o.report.empty()) write_text(o.report, lw::report_as_html(survey, scene, caster, o.cameras));
 }
 
 std::string list_of_tasks() {
-    std::string text = "Tasks (EN 12464-1:2011; Em in lx, U0):\n";
+    std::string text = "Tasks (EN 12464-1: Em in lx, U0, edition, row or section):\n";
     for (const lw::Task& task : lw::known_tasks()) {
         char line[160];
-        std::snprintf(line, sizeof line, "  %-15s %4g  %.1f  %s\n", task.name.c_str(), task.illuminance,
-                      task.uniformity, task.what.c_str());
+        std::snprintf(line, sizeof line, "  %-19s %4g  %.1f  %d  %s\n", task.name.c_str(), task.illuminance,
+                      task.uniformity, task.edition, task.what.c_str());
         text += line;
     }
     return text;
@@ -154,22 +180,32 @@ void add_options(CLI::App& app, Options& o) {
            "--surface", o.surfaces,
            "\"OBJECT[: [facing=+y] [count=64] [task=TASK]]\": points spread evenly over an object's front faces")
         ->allow_extra_args(false);
-    app.add_option("--ambiance", o.ambiances,
-                   "\"NAME\" of SCENE.ambiances.json, or \"NAME: LAMP=FACTOR, LAMP=FACTOR ...\"; may be repeated")
+    app.add_option(
+           "--ambiance", o.ambiances,
+           "\"NAME\" of SCENE.ambiances.json, or \"NAME: LAMP=FACTOR, LAMP=FACTOR@KELVIN ...\"; may be repeated")
         ->allow_extra_args(false);
-    app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
+    app.add_option(
+           "--power", o.powers,
+           "LIGHT=FACTOR, dims (< 1) or brightens a lamp; LIGHT=FACTOR@KELVIN gives it a colour temperature too, "
+           "at the same light output; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--maintenance", o.survey.maintenance, "maintenance factor: part of the light that is left")
         ->capture_default_str()
         ->check(CLI::Range(0.01, 1.0));
-    app.add_option("--error", o.error_percent,
-                   "percent: traces rays and bakes until half the 90 % interval of every sensor over 1 lx is below")
+    app.add_option(
+           "--error", o.error_percent,
+           "percent: traces rays and bakes until half the 90 % interval of every sensor over 1 lx is below; starts "
+           "from MAP if there is one")
         ->check(CLI::Range(0.2, 100.0));
     app.add_option("--photons", o.photons, "bake this many photons in memory instead of reading MAP")
         ->check(CLI::Range(uint64_t(1000), uint64_t(2'000'000'000)));
     app.add_option("--most-photons", o.survey.most_photons, "largest bake of --error")
         ->capture_default_str()
         ->check(CLI::Range(uint64_t(1000), uint64_t(2'000'000'000)));
+    app.add_option("--save-map", o.saved_map, "photon map to write what --photons or --error baked to (SCENE.pmap)");
+    app.add_option("--reference", o.reference_paths,
+                   "path trace every sensor with so many paths in the first ambiance, and say how many intervals hold")
+        ->check(CLI::Range(uint64_t(16), uint64_t(1'000'000'000)));
     app.add_option("--rays", o.survey.meter.rays, "least rays per sensor; more are traced where they are the error")
         ->capture_default_str()
         ->check(CLI::Range(8u, 1u << 20));

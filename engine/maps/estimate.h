@@ -99,6 +99,29 @@ class PhotonEstimator : public SurfaceReader {
 
 #include "shaders/follow.glsl"
 
+    /// Calls visit(reference, place, squared distance) for the photons of a grid within `radius` of a point in its
+    /// frame that lie on the same surface.
+    template <class Visit>
+    void visit_photons(const SurfaceGrid& grid, vec3 local, float radius, const Visit& visit) const {
+        const vec3 reach(radius, radius, 0);
+        const ivec2 low = cell_of(local - reach, grid), high = cell_of(local + reach, grid);
+        for (int y = low.y; y <= high.y; ++y) {
+            const uvec2 span = row_span(grid, low.x, high.x, y);
+            for (uint i = span.x; i < span.y; ++i) {
+                const PhotonPlace place = photon_place(i);
+                const vec3 d = place_in_grid(place, grid) - local;
+                const float d2 = dot(d, d);
+                if (d2 < radius * radius && on_same_surface(d.z, d2, max_radius)) visit(i, place, d2);
+            }
+        }
+    }
+
+    /// The part of a caustic's kernel at a place that lies on surface; as in shaders/caustics.glsl.
+    float caustic_coverage(const MapPlace& at, const SurfaceGrid& grid, float radius) const {
+        if (!has_coverage || at.map == no_map) return 1;
+        return mix(1.0f, coverage_at(at, radius), min(4.0f * radius / grid.radius, 1.0f));
+    }
+
     /// The estimate at (triangle, barycentrics) seen from direction `to_view` (unit). `seed` picks the points on mesh
     /// lamps, `pixel` the paths that go on.
     Gathered estimate(uint triangle, vec2 barycentrics, vec3 to_view, uint seed = 0, uvec2 pixel = uvec2(0)) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "trace/emitter.h"
 #include "trace/sampling.h"
 
@@ -43,10 +44,10 @@ class Meter : public PhotonEstimator {
         m.lamps.resize(light_count);
         float variance = 0;
         const MapPlace place = place_on(map_of(hit.triangle, front), s.position);
-        if (place.map != no_map) variance += add_reflected(place.grid, place, m);
+        if (place.map != no_map) variance += add_reflected(place.grid, place, false, m);
         if (has_caustics)
             if (const uint caustics = caustic_map_of(hit.triangle, front); caustics != no_map)
-                variance += add_reflected(grid_at(caustics), place, m);
+                variance += add_reflected(grid_at(caustics), place, true, m);
         if (has_direct)
             for (uint lamp = 0; lamp < light_count; ++lamp) variance += add_direct(lamp, m);
         for (const LampShare& share : m.lamps) m.lux += share.lux;
@@ -66,46 +67,39 @@ class Meter : public PhotonEstimator {
         return sum / float(paths);
     }
 
-    /// Photons within `radius`, per lamp when `shares` is not null.
-    Sum add_photons(const SurfaceGrid& grid, vec3 local, const MapPlace& place, float radius,
-                    Measurement* shares) const {
+    /// Photons within `radius`, of which `covered` lies on surface; per lamp when `shares` is not null.
+    Sum add_photons(const SurfaceGrid& grid, vec3 local, float covered, float radius, Measurement* shares) const {
         const float r2 = radius * radius;
-        const float share = 2 / (lw_pi * r2) * inverse_flux_scale /
-                            (has_coverage && place.map != no_map ? coverage_at(place, radius) : 1.0f);
-        const ivec2 low = cell_of(local - vec3(radius, radius, 0), grid);
-        const ivec2 high = cell_of(local + vec3(radius, radius, 0), grid);
+        const float share = 2 / (lw_pi * r2) * inverse_flux_scale / covered;
         Sum sum;
-        for (int y = low.y; y <= high.y; ++y) {
-            const uvec2 span = row_span(grid, low.x, high.x, y);
-            for (uint i = span.x; i < span.y; ++i) {
-                const PhotonPlace photon = photon_place(i);
-                const vec3 d = place_in_grid(photon, grid) - local;
-                const float d2 = dot(d, d);
-                if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
-                const uint lamp = light_of(photon);
-                const float lux =
-                    luminance(unpack_rgb9e5(photon_flux(i)) * light_weight(lamp)) * (share * (1 - d2 / r2));
-                sum.value += lux;
-                sum.squares += lux * lux;
-                if (!shares) continue;
-                shares->photons += 1;
-                shares->lamps[lamp].lux += lux;
-                if (path_of(photon) == path_direct) shares->lamps[lamp].direct_lux += lux;
-            }
-        }
+        visit_photons(grid, local, radius, [&](uint i, PhotonPlace photon, float d2) {
+            const uint lamp = light_of(photon);
+            const float lux = luminance(unpack_rgb9e5(photon_flux(i)) * light_weight(lamp)) * (share * (1 - d2 / r2));
+            sum.value += lux;
+            sum.squares += lux * lux;
+            if (!shares) return;
+            shares->photons += 1;
+            shares->lamps[lamp].lux += lux;
+            if (path_of(photon) == path_direct) shares->lamps[lamp].direct_lux += lux;
+        });
         return sum;
     }
 
     /// Returns the variance with the square of the bias, which grows as the square of the bandwidth: what narrower
     /// kernels read differently, less what noise alone makes different.
-    float add_reflected(const SurfaceGrid& grid, const MapPlace& place, Measurement& m) const {
+    float add_reflected(const SurfaceGrid& grid, const MapPlace& place, bool caustic, Measurement& m) const {
         const vec3 local = position_in_grid(grid, m.position);
-        const float bandwidth = bandwidth_from_counts(grid, local);
+        const float bandwidth = caustic ? caustic_radius(grid, local) : bandwidth_from_counts(grid, local);
         if (m.bandwidth <= 0) m.bandwidth = bandwidth;
-        const Sum wide = add_photons(grid, local, place, bandwidth, &m);
+        const auto covered = [&](float radius) {
+            if (caustic) return caustic_coverage(place, grid, radius);
+            return has_coverage ? coverage_at(place, radius) : 1.0f;
+        };
+        const Sum wide = add_photons(grid, local, covered(bandwidth), bandwidth, &m);
         float bias2 = 0;
         for (float part : narrower) {
-            const Sum thin = add_photons(grid, local, place, part * bandwidth, nullptr);
+            const float radius = part * bandwidth;
+            const Sum thin = add_photons(grid, local, covered(radius), radius, nullptr);
             const float change = wide.value - thin.value, noise2 = std::max(thin.squares - wide.squares, 0.0f);
             const float grows = 1 - part * part;
             bias2 = std::max(bias2, (change * change - noise2) / (grows * grows));
@@ -162,6 +156,14 @@ std::optional<Hit> seen_from(const Scene& scene, const RayCaster& caster, vec3 o
 Measurement measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
                     const std::vector<vec3>& weights, const Hit& hit, vec3 viewer) {
     return Meter(scene, caster, map, bvh, weights).measure_at(hit, viewer);
+}
+
+std::vector<Measurement> measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
+                                 const std::vector<vec3>& weights, std::span<const SeenPlace> places) {
+    const Meter meter(scene, caster, map, bvh, weights);
+    std::vector<Measurement> measurements(places.size());
+    parallel_for(places.size(), [&](size_t i) { measurements[i] = meter.measure_at(places[i].hit, places[i].viewer); });
+    return measurements;
 }
 
 }  // namespace lw

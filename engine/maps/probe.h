@@ -2,6 +2,8 @@
 // same photons. More careful and slower than a pixel: all lamps' direct light by many rays, reflected light by the
 // smooth estimate at two bandwidths, whose difference tells of its bias.
 #pragma once
+#include <span>
+
 #include "maps/estimate.h"
 #include "trace/ray_caster.h"
 
@@ -30,5 +32,15 @@ std::optional<Hit> seen_from(const Scene& scene, const RayCaster& caster, vec3 o
 /// Measures where `hit` lies, on the side of `viewer`. `weights`: RGB power of each lamp (light_weights()).
 Measurement measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
                     const std::vector<vec3>& weights, const Hit& hit, vec3 viewer);
+
+/// A point of a surface and from where it is looked at.
+struct SeenPlace {
+    Hit hit;
+    vec3 viewer;
+};
+
+/// The same for many places at once.
+std::vector<Measurement> measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
+                                 const std::vector<vec3>& weights, std::span<const SeenPlace> places);
 
 }  // namespace lw

@@ -53,18 +53,9 @@ class CausticNodes : public PhotonEstimator {
         const float covered = unpack_coverage(map_.coverage[node], radius / map_.grids[m].radius);
         const float share = 2 / (lw_pi * r2) * inverse_flux_scale * map_.irradiance_scale /
                             (1 + wide * (std::max(covered, least_coverage) - 1));
-        const ivec2 low = cell_of(local - vec3(radius, radius, 0), grid),
-                    high = cell_of(local + vec3(radius, radius, 0), grid);
-        for (int y = std::max(low.y, 0); y <= std::min(high.y, int(grid.rows) - 1); ++y) {
-            const uvec2 span = row_span(grid, low.x, high.x, y);
-            for (uint p = span.x; p < span.y; ++p) {
-                const PhotonPlace place = photon_place(p);
-                const vec3 d = place_in_grid(place, grid) - local;
-                const float d2 = dot(d, d);
-                if (d2 < r2 && on_same_surface(d.z, d2, max_radius))
-                    light[light_of(place)] += unpack_rgb9e5(photon_flux(p)) * (share * (1 - d2 / r2));
-            }
-        }
+        visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
+            light[light_of(place)] += unpack_rgb9e5(photon_flux(i)) * (share * (1 - d2 / r2));
+        });
         return light;
     }
 

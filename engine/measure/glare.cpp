@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "measure/guth.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -12,20 +13,7 @@ namespace {
 
 double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
-double degrees(double radians) { return radians * 180 / M_PI; }
-
 }  // namespace
-
-double position_index(vec3 direction, vec3 forward, vec3 up) {
-    const vec3 right = normalize(cross(forward, up)), above = cross(right, forward);
-    const double along = double(dot(direction, forward)), x = double(dot(direction, right)),
-                 y = double(dot(direction, above));
-    if (along <= 1e-6) return std::numeric_limits<double>::infinity();
-    const double sigma = degrees(std::acos(std::min(along, 1.0)));          // from the line of sight
-    const double tau = y > 0 ? degrees(std::atan2(std::abs(x), y)) : 90.0;  // from the vertical
-    return std::exp((35.2 - 0.31889 * tau - 1.22 * std::exp(-2 * tau / 9)) * 1e-3 * sigma +
-                    (21 + 0.26667 * tau - 0.002963 * tau * tau) * 1e-5 * sigma * sigma);
-}
 
 double glare_of(const GlareSource& source, vec3 forward, vec3 up) {
     const double p = position_index(source.direction, forward, up);

@@ -16,11 +16,6 @@ struct GlareSource {
     vec3 direction{0};       // unit, from the eye to its middle
 };
 
-/// Guth's position index of a unit direction for eyes that look along `forward`: 1 in the line of sight, growing away
-/// from it. Levin's formula (1975), within 12 % of the table of CIE 117; below the line of sight it is that of the same
-/// angle sideways (Iwata & Osterhaus 2010). Infinite behind the eyes.
-double position_index(vec3 direction, vec3 forward, vec3 up);
-
 /// L2 omega / p2 of one source, the summand of the UGR.
 double glare_of(const GlareSource& source, vec3 forward, vec3 up);
 

@@ -46,19 +46,30 @@ Rgb8Image colored_grid(const std::vector<Value>& values, const GridShape& grid, 
     return image;
 }
 
-std::string isolux_paths(const std::vector<Value>& values, const GridShape& grid, const vec2& cell, double low,
-                         double high) {
+/// Where a line is farthest from the numbers, which stand in the middles of the cells.
+vec2 label_place(const std::vector<IsoluxSegment>& line) {
+    const auto off = [](vec2 at) { return length(fract(at) - vec2(0.5f)); };
+    vec2 best = line[0].from;
+    for (const IsoluxSegment& s : line)
+        for (const vec2 at : {s.from, 0.5f * (s.from + s.to)})
+            if (off(at) > off(best)) best = at;
+    return best;
+}
+
+/// Lines at levels of the field's own range, not at those of the colours, which all ambiances share.
+std::string isolux_paths(const std::vector<Value>& values, const GridShape& grid, const vec2& cell) {
     std::vector<double> lux;
     for (const Value& value : values) lux.push_back(value.lux);
+    const auto [low, high] = std::minmax_element(lux.begin(), lux.end());
     std::string text;
-    for (const double level : isolux_levels(low, high)) {
+    for (const double level : isolux_levels(*low, *high)) {
         const std::vector<IsoluxSegment> line = isolux_line(lux, grid.columns, grid.rows, level);
         if (line.empty()) continue;
         text += "<path class=iso d=\"";
         for (const IsoluxSegment& s : line)
             text += printed("M%.4g %.4gL%.4g %.4g", double(s.from.x * cell.x), double(s.from.y * cell.y),
                             double(s.to.x * cell.x), double(s.to.y * cell.y));
-        const vec2 at = line[line.size() / 2].from * cell;
+        const vec2 at = label_place(line) * cell;
         text += printed("\"/><text class=level x=%.4g y=%.4g>%g</text>\n", double(at.x), double(at.y), level);
     }
     return text;
@@ -82,8 +93,10 @@ std::string legend(double low, double high) {
         text += printed(",rgb(%d,%d,%d)", int(rgb[0]), int(rgb[1]), int(rgb[2]));
     }
     text += ")\"></span>";
+    constexpr double room_for_unit = 0.95;  // of the bar: "lx" stands behind
     for (const double level : isolux_levels(low, high))
-        text += printed("<span class=tick style=\"left:%.2f%%\">%g</span>", 100 * log_share(level, low, high), level);
+        if (const double at = log_share(level, low, high); at < room_for_unit)
+            text += printed("<span class=tick style=\"left:%.2f%%\">%g</span>", 100 * at, level);
     return text + "<span class=unit>lx</span></div>\n";
 }
 
@@ -113,8 +126,7 @@ std::string grid_drawing(const MeasuredSet& measured, const std::vector<Value>& 
             text += printed("<text class=%s x=%.4g y=%.4g>%.*f</text>\n", kind, x, y, values[i].lux < 9.95 ? 1 : 0,
                             values[i].lux);
         }
-    text += printed("<g style=\"font-size:%.4gpx\">", 11 * unit) + isolux_paths(values, grid, cell, low, high) +
-            "</g></svg>\n";
+    text += printed("<g style=\"font-size:%.4gpx\">", 11 * unit) + isolux_paths(values, grid, cell) + "</g></svg>\n";
     return text;
 }
 

@@ -1,5 +1,5 @@
-// Reads sensors anywhere: direct light of each lamp by shadow rays, reflected light by rays to the surfaces around,
-// where the photons of the map say what each lamp brings (final gathering; Jensen 2001, section 8.3.2).
+// Reads sensors anywhere: direct light of each lamp by shadow rays, reflected light by rays to the surfaces around
+// (measure/gathering.h), and on a surface the caustics that lie on it.
 #pragma once
 #include <span>
 
@@ -19,8 +19,8 @@ struct MeterSettings {
 std::vector<Reading> read_sensors(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
                                   std::span<const Sensor> sensors, const MeterSettings& settings);
 
-/// The part of the lamps' light that reached surfaces over mirrors or lenses from points and suns: gathering at a
-/// sensor in the air cannot see it. 0 to 1, of the reflected light at the file's powers.
+/// The part of the lamps' light that reached surfaces over mirrors or lenses from points and suns: a sensor in the air
+/// cannot see it. 0 to 1, of the reflected light at the file's powers.
 double share_of_caustics(const Scene& scene, const PhotonMap& map);
 
 }  // namespace lw

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "image/tonemap.h"
-
 namespace lw {
 namespace {
 
@@ -15,55 +13,72 @@ static_assert(repetitions == 8);
 /// Even rays that all miss a small bright thing agree with each other. What they gain over random ones is not believed
 /// beyond this part of the random error.
 constexpr double least_of_scatter = 0.25;
+constexpr double fewest_photons = 100;
 
 /// Why a number should not be signed, or "".
 std::string doubt_of(const Reading& reading, const Value& value) {
     char text[96] = "";
     if (reading.blocked) return "inside or right under an object";
-    const auto dark = [](vec3 lamp) { return lamp == vec3(0); };
-    if (std::all_of(reading.lamps.begin(), reading.lamps.end(), dark)) return "no light found";
-    if (reading.photons < 100 && value.photon_error > 0.02 * value.lux) {
-        std::snprintf(text, sizeof text, "too few photons (%.0f effective)", double(reading.photons));
+    if (is_dark(reading)) return "no light found";
+    if (value.photons < fewest_photons && value.photon_error > 0.02 * value.lux) {
+        std::snprintf(text, sizeof text, "too few photons (%.0f effective)", value.photons);
     } else if (value.relative() > 0.1) {
         std::snprintf(text, sizeof text, "interval wider than 10 %%: %s",
                       value.ray_error > value.photon_error ? "more rays" : "more photons");
+    } else if (reading.near_border) {
+        return "within 1 cm of a border";
     }
     return text;
 }
 
-}  // namespace
-
-double lux_of_lamp(const Reading& reading, const Scene& scene, size_t lamp) {
-    return double(luminance(reading.lamps[lamp] * scene.lights[lamp].intensity));
+/// Standard error of a sum over the colours from the squares of theirs: they err together (an upper bound).
+double joined_error(vec3 factor, ChannelLux variance) {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) sum += double(factor[c]) * std::sqrt(double(variance[c]));
+    return sum;
 }
 
-double photon_map_lux(const Reading& reading, const std::vector<float>& factors, float maintenance) {
-    double lux = 0;
-    for (size_t lamp = 0; lamp < reading.photon_map.size(); ++lamp)
-        lux += double(factors[lamp] * maintenance * reading.photon_map[lamp]);
-    return lux;
+double sum_of(vec3 factor, ChannelLux lux) {
+    return double(factor.x) * double(lux.x) + double(factor.y) * double(lux.y) + double(factor.z) * double(lux.z);
 }
 
-Value value_of(const Reading& reading, const Scene& scene, const std::vector<float>& factors, float maintenance) {
+/// Standard error of the mean of the repetitions.
+double spread_of(const Reading& reading, std::span<const vec3> factors, double mean) {
     const size_t count = reading.lamps.size();
-    Value value;
-    double photon_variance = 0, scatter = 0, by_photons = 0, deviation2 = 0;
-    for (size_t lamp = 0; lamp < count; ++lamp) {
-        const double factor = double(factors[lamp] * maintenance);
-        value.lux += factor * lux_of_lamp(reading, scene, lamp);
-        by_photons += factor * double(reading.by_photons[lamp]);
-        scatter += factor * std::sqrt(double(reading.scatter[lamp]));
-        photon_variance += factor * factor * double(reading.photon_variance[lamp]);
-    }
+    double deviation2 = 0;
     for (uint r = 0; r < repetitions; ++r) {
         double lux = 0;
-        for (size_t lamp = 0; lamp < count; ++lamp)
-            lux += double(factors[lamp] * maintenance) * double(reading.repeated[r * count + lamp]);
-        deviation2 += (lux - value.lux) * (lux - value.lux);
+        for (size_t lamp = 0; lamp < count; ++lamp) lux += sum_of(factors[lamp], reading.repeated[r * count + lamp]);
+        deviation2 += (lux - mean) * (lux - mean);
     }
-    const double spread = std::sqrt(deviation2 / (repetitions - 1) / repetitions);
-    value.ray_error = std::max(spread, least_of_scatter * scatter);
-    value.photon_error = std::hypot(std::sqrt(photon_variance), double(reading.kernel_bias) * by_photons);
+    return std::sqrt(deviation2 / (repetitions - 1) / repetitions);
+}
+
+}  // namespace
+
+bool is_dark(const Reading& reading) {
+    return std::all_of(reading.lamps.begin(), reading.lamps.end(), [](ChannelLux lamp) { return lamp == vec3(0); });
+}
+
+double lux_of_lamp(const Reading& reading, size_t lamp, vec3 factor) { return sum_of(factor, reading.lamps[lamp]); }
+
+Value value_of(const Reading& reading, std::span<const vec3> factors, float maintenance) {
+    Value value;
+    double variance = 0, scatter = 0, by_photons = 0, blur = 0;
+    for (size_t lamp = 0; lamp < reading.lamps.size(); ++lamp) {
+        value.lux += lux_of_lamp(reading, lamp, factors[lamp]);
+        by_photons += sum_of(factors[lamp], reading.by_photons[lamp]);
+        blur += sum_of(factors[lamp], reading.blur[lamp]);
+        scatter += sum_of(factors[lamp], reading.scatter[lamp]);
+        const double error = joined_error(factors[lamp], reading.photon_variance[lamp]);
+        variance += error * error;
+    }
+    const double kernels = double(reading.kernel_bias) * by_photons;
+    const double rays = std::max(spread_of(reading, factors, value.lux), least_of_scatter * scatter);
+    value.lux *= double(maintenance);
+    value.ray_error = double(maintenance) * rays;
+    value.photon_error = double(maintenance) * std::sqrt(variance + kernels * kernels + blur * blur);
+    value.photons = variance > 0 ? by_photons * by_photons / variance : 0;
     value.half_width = std::hypot(student_90 * value.ray_error, normal_90 * value.photon_error);
     value.doubt = doubt_of(reading, value);
     return value;

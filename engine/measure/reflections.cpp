@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/replaced_file.h"
+#include "measure/guth.h"
 #include "measure/mirrored_light.h"
 #include "scene/camera.h"
 

@@ -39,23 +39,30 @@ std::string verdict_cells(const MeasuredSet& measured, const Statistics& s) {
     if (measured.set.task.empty()) return cell("") + cell("") + cell("");
     const Task& task = find_task(measured.set.task);
     const std::string verdict = name_of(judge(s, task).both());
-    return cell(escaped(task.name)) + cell(printed("%g lx, U0 %.2g", task.illuminance, task.uniformity)) +
+    return cell(escaped(task.name)) +
+           cell(printed("%g lx, U0 %.2g (%d)", task.illuminance, task.uniformity, task.edition)) +
            cell("<span class=" + verdict + ">" + verdict + "</span>");
 }
 
-std::string table_of_fields(const Survey& survey, const Scene& scene, const PowerSetting& ambiance) {
+std::string table_of_fields(const Survey& survey, const PowerSetting& ambiance) {
     std::string text =
         "<table><tr><th>field<th>points<th>E<sub>avg</sub> lx<th>E<sub>min</sub><th>E<sub>max</sub><th>U<sub>0</sub>"
-        "<th>U<sub>d</sub><th>doubtful<th>task<th>required<th>result</tr>\n";
+        "<th>U<sub>d</sub><th>doubtful<th>task<th>EN 12464-1<th>result</tr>\n";
     for (const MeasuredSet& measured : survey.sets) {
-        const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
+        const Statistics s = statistics_of(measured, ambiance, survey.maintenance);
         text += "<tr>" + cell(escaped(measured.set.name)) + cell(printed("%zu", s.count)) + lux_cell(s.average) +
                 lux_cell(s.minimum) + lux_cell(s.maximum) +
-                cell(printed("%.2f <span class=note>&plusmn; %.2f</span>", s.u0.value, s.u0.half_width)) +
+                cell(printed("%.2f <span class=note>&plusmn; %.1g</span>", s.u0.value, s.u0.half_width)) +
                 cell(printed("%.2f", s.ud.value)) + cell(printed("%zu", s.doubtful)) + verdict_cells(measured, s) +
                 "</tr>\n";
     }
     return text + "</table>\n";
+}
+
+/// "0.5", or by colour "0.9 0.5 0.2".
+std::string power_text(vec3 factor) {
+    if (factor.x == factor.y && factor.y == factor.z) return printed("%.3g", double(factor.x));
+    return printed("R %.2f G %.2f B %.2f", double(factor.x), double(factor.y), double(factor.z));
 }
 
 /// Mean lux of a field that each lamp brings.
@@ -64,13 +71,13 @@ std::string table_of_lamps(const Survey& survey, const Scene& scene, const Power
     for (const MeasuredSet& measured : survey.sets) text += "<th>" + escaped(measured.set.name) + " lx";
     text += "</tr>\n";
     for (size_t lamp = 0; lamp < scene.lights.size(); ++lamp) {
-        const double factor = double(ambiance.factors[lamp]);
-        text += "<tr>" + cell(escaped(scene.light_names[lamp])) + cell(printed("%.3g", factor));
+        const vec3 factor = ambiance.factors[lamp];
+        text += "<tr>" + cell(escaped(scene.light_names[lamp])) + cell(power_text(factor));
         for (const MeasuredSet& measured : survey.sets) {
             double sum = 0, count = 0;
             for (const Reading& reading : measured.readings)
-                if (!reading.blocked) sum += lux_of_lamp(reading, scene, lamp), count += 1;
-            text += cell(printed("%.4g", count > 0 ? sum / count * factor * double(survey.maintenance) : 0.0));
+                if (!reading.blocked) sum += lux_of_lamp(reading, lamp, factor), count += 1;
+            text += cell(printed("%.4g", count > 0 ? sum / count * double(survey.maintenance) : 0.0));
         }
         text += "</tr>\n";
     }
@@ -89,27 +96,70 @@ std::string table_of_points(const MeasuredSet& measured, const std::vector<Value
 }
 
 /// Bounds of the colours of a field: the same in all ambiances.
-std::pair<double, double> range_of(const MeasuredSet& measured, const Scene& scene, const Survey& survey) {
+std::pair<double, double> range_of(const MeasuredSet& measured, const Survey& survey) {
     double low = 1e30, high = 0;
     for (const PowerSetting& ambiance : survey.ambiances)
-        for (const Value& value : values_of(measured, scene, ambiance, survey.maintenance))
+        for (const Value& value : values_of(measured, ambiance, survey.maintenance))
             low = std::min(low, value.lux), high = std::max(high, value.lux);
     high = std::max(high, 1e-6);
     return {std::clamp(low, high * 1e-2, high * 0.8), high};
 }
 
+/// How a grid lies: its points, the corner that is drawn at the top left, and where its columns and rows go.
+std::string note_of(const SensorSet& set, const Scene& scene) {
+    const auto axis = [](vec3 v) { return v.x != 0 ? "x" : v.y != 0 ? "y" : "z"; };
+    const GridShape& grid = set.grid;
+    const glm::dvec3 corner = glm::dvec3(grid.corner) + scene.origin;
+    return printed(
+        "<p class=note>%u &times; %u points every %.3g &times; %.3g m%s; top left %.2f, %.2f, %.2f m, "
+        "to the right +%s, down +%s</p>\n",
+        grid.columns, grid.rows, double(length(grid.across)), double(length(grid.along)),
+        set.sensors[0].response == Response::cylindrical ? ", cylindrical" : "", corner.x, corner.y, corner.z,
+        axis(grid.across), axis(grid.along));
+}
+
+/// Which values should not be signed, and why.
+std::string table_of_doubts(const Survey& survey, const PowerSetting& ambiance) {
+    constexpr size_t most = 20;
+    std::string rows;
+    size_t count = 0;
+    for (const MeasuredSet& measured : survey.sets) {
+        const std::vector<Value> values = values_of(measured, ambiance, survey.maintenance);
+        for (size_t i = 0; i < values.size(); ++i) {
+            if (values[i].doubt.empty() || measured.readings[i].blocked || ++count > most) continue;
+            rows += "<tr>" + cell(escaped(measured.set.name)) + cell(escaped(name_of_sensor(measured.set, i))) +
+                    lux_cell({values[i].lux, values[i].half_width}) + cell(escaped(values[i].doubt)) + "</tr>\n";
+        }
+    }
+    if (count == 0) return "";
+    if (count > most) rows += printed("<tr><td>and %zu more, in the CSV</tr>\n", count - most);
+    return "<h3>Values that should not be trusted</h3>\n<table><tr><th>field<th>sensor<th>lx<th>why</tr>\n" + rows +
+           "</table>\n";
+}
+
+/// What path tracing says of the intervals.
+std::string table_of_agreement(const Survey& survey) {
+    if (survey.sets.empty() || survey.sets[0].traced.empty()) return "";
+    const PowerSetting& ambiance = survey.ambiances[0];
+    std::string text =
+        "<h3>Compared with path tracing</h3>\n<table><tr><th>field<th>sensors<th>intervals that hold"
+        "<th>mean difference</tr>\n";
+    for (const MeasuredSet& measured : survey.sets) {
+        const Agreement a = agreement_of(measured, ambiance, survey.maintenance);
+        text += "<tr>" + cell(escaped(measured.set.name)) + cell(printed("%zu", a.compared)) +
+                cell(printed("%zu", a.inside)) + cell(printed("%+.2f %%", 100 * a.difference)) + "</tr>\n";
+    }
+    return text + "</table>\n";
+}
+
 std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const PowerSetting& ambiance) {
     std::string text;
     for (const MeasuredSet& measured : survey.sets) {
-        const std::vector<Value> values = values_of(measured, scene, ambiance, survey.maintenance);
+        const std::vector<Value> values = values_of(measured, ambiance, survey.maintenance);
         if (measured.set.kind == SensorSet::Kind::points) text += table_of_points(measured, values, scene);
         if (measured.set.kind != SensorSet::Kind::grid) continue;
-        const auto [low, high] = range_of(measured, scene, survey);
-        const GridShape& grid = measured.set.grid;
-        text += "<h3>" + escaped(measured.set.name) + "</h3>\n" +
-                printed("<p class=note>%u &times; %u points every %.3g &times; %.3g m%s</p>\n", grid.columns, grid.rows,
-                        double(length(grid.across)), double(length(grid.along)),
-                        measured.set.sensors[0].response == Response::cylindrical ? ", cylindrical" : "");
+        const auto [low, high] = range_of(measured, survey);
+        text += "<h3>" + escaped(measured.set.name) + "</h3>\n" + note_of(measured.set, scene);
         text += grid_drawing(measured, values, plan_view(scene, caster, measured.set, plan_band, plan_width), plan_band,
                              low, high) +
                 legend(low, high);
@@ -149,14 +199,17 @@ std::string report_as_html(const Survey& survey, const Scene& scene, const RayCa
         name + "</title>\n" + std::string(style) + "\n<h1>Illuminance of " + name + "</h1>\n";
     text += printed(
         "<p>%.3g million photons, maintenance factor %.3g. &plusmn; is half the 90&nbsp;%% interval of a value. "
-        "Numbers in red italics should not be trusted, the CSV says why.</p>\n",
+        "Numbers in red italics should not be trusted, for the reasons given; points inside objects are crossed out "
+        "and not counted. Plans show the model below the grid; metres, Y up.</p>\n",
         1e-6 * double(survey.map.stored_photons), double(survey.maintenance));
     for (const std::string& warning : survey.warnings) text += "<p class=warning>" + escaped(warning) + "</p>\n";
     for (const PowerSetting& ambiance : survey.ambiances) {
-        text += "<h2>Ambiance " + escaped(ambiance.name) + "</h2>\n" + table_of_fields(survey, scene, ambiance);
+        text += "<h2>Ambiance " + escaped(ambiance.name) + "</h2>\n" + table_of_fields(survey, ambiance);
         text += fields_of(survey, scene, caster, ambiance);
         text += pictures_of(survey, scene, caster, ambiance, cameras);
         text += "<h3>Share of each lamp, mean of the field</h3>\n" + table_of_lamps(survey, scene, ambiance);
+        text += table_of_doubts(survey, ambiance);
+        if (&ambiance == &survey.ambiances[0]) text += table_of_agreement(survey);
     }
     return text + "</html>\n";
 }

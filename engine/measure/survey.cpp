@@ -5,11 +5,17 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/memory.h"
+#include "maps/bake_memory.h"
 #include "maps/build.h"
+#include "maps/probe.h"
+#include "measure/placing.h"
 #include "measure/words.h"
 #include "photons/shoot.h"
 #include "scene/ambiance.h"
 #include "scene/camera.h"
+#include "trace/build_bvh.h"
+#include "trace/emitter.h"
 
 namespace lw {
 namespace {
@@ -28,10 +34,10 @@ struct Errors {
     double rays = 0, photons = 0, interval = 0;
 };
 
-Errors errors_of(const Reading& reading, const Scene& scene, const Survey& survey) {
+Errors errors_of(const Reading& reading, const Survey& survey) {
     Errors worst;
     for (const PowerSetting& ambiance : survey.ambiances) {
-        const Value value = value_of(reading, scene, ambiance.factors, survey.maintenance);
+        const Value value = value_of(reading, ambiance.factors, survey.maintenance);
         if (value.lux < least_lux || reading.blocked) continue;
         worst.rays = std::max(worst.rays, 1.9 * value.ray_error / value.lux);
         worst.photons = std::max(worst.photons, 1.645 * value.photon_error / value.lux);
@@ -66,18 +72,17 @@ void add_rays(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
         rays *= more_rays;
         std::vector<Place> noisy;
         for (const Place& at : places_of(survey))
-            if (errors_of(survey.sets[at.set].readings[at.sensor], scene, survey).rays > share) noisy.push_back(at);
+            if (errors_of(survey.sets[at.set].readings[at.sensor], survey).rays > share) noisy.push_back(at);
         if (noisy.empty()) return;
         read_places(scene, caster, map, noisy, {rays, settings.meter.seed + rays}, survey);
     }
 }
 
 /// Photons with which every sensor's photon error would be its share; the map's own number when it is enough.
-uint64_t photons_needed(const Scene& scene, const PhotonMap& map, const SurveySettings& settings,
-                        const Survey& survey) {
+uint64_t photons_needed(const PhotonMap& map, const SurveySettings& settings, const Survey& survey) {
     double worst = 0;
     for (const Place& at : places_of(survey))
-        worst = std::max(worst, errors_of(survey.sets[at.set].readings[at.sensor], scene, survey).photons);
+        worst = std::max(worst, errors_of(survey.sets[at.set].readings[at.sensor], survey).photons);
     const double ratio = worst / (photon_share * settings.error);
     if (ratio <= 1) return map.stored_photons;
     return uint64_t(std::min(double(map.stored_photons) * ratio * ratio * 1.15, 1e18));
@@ -97,11 +102,20 @@ std::string text_of(const char* format, auto... values) {
     return text;
 }
 
+/// The photons wanted, or as many as the memory allows.
+uint64_t affordable(const Scene& scene, const BakeSettings& before, uint64_t photons, uint64_t bytes) {
+    BakeSettings settings = before;
+    for (settings.photons = photons; settings.photons > before.photons; settings.photons /= 2)
+        if (predict_bake_bytes(scene, settings) <= bytes) break;
+    return settings.photons;
+}
+
 void reach_error(const Scene& scene, const RayCaster& caster, PhotonMap& map, const std::vector<Place>& all,
                  const SurveySettings& settings, Survey& survey) {
     for (int tries = 0; tries < 3; ++tries) {
-        const uint64_t needed = photons_needed(scene, map, settings, survey);
-        const uint64_t photons = std::min(needed, settings.most_photons);
+        const uint64_t needed = photons_needed(map, settings, survey);
+        const uint64_t photons = affordable(scene, map.settings, std::min(needed, settings.most_photons),
+                                            settings.memory > 0 ? settings.memory : available_memory());
         if (photons <= map.stored_photons + map.stored_photons / 50) break;
         map = bake_again(scene, caster, map.settings, photons);
         ++survey.bakes;
@@ -109,34 +123,33 @@ void reach_error(const Scene& scene, const RayCaster& caster, PhotonMap& map, co
         add_rays(scene, caster, map, settings, survey);
     }
     for (const Place& at : all)
-        survey.unreached += errors_of(survey.sets[at.set].readings[at.sensor], scene, survey).interval > settings.error;
+        survey.unreached += errors_of(survey.sets[at.set].readings[at.sensor], survey).interval > settings.error;
     if (survey.unreached > 0)
         survey.warnings.push_back(text_of(
             "%zu sensors have an interval wider than the %.3g %% asked for; about %.3g million photons would do",
-            survey.unreached, 100 * settings.error, 1e-6 * double(photons_needed(scene, map, settings, survey))));
+            survey.unreached, 100 * settings.error, 1e-6 * double(photons_needed(map, settings, survey))));
+}
+
+bool has_sensor_in_the_air(const Scene& scene, const RayCaster& caster, const Survey& survey) {
+    const SurfaceReader surfaces(scene);
+    const auto in_the_air = [&](const Sensor& sensor) {
+        return !surface_under(surfaces, caster, lifted(surfaces, caster, sensor));
+    };
+    return std::any_of(survey.sets.begin(), survey.sets.end(), [&](const MeasuredSet& measured) {
+        return std::any_of(measured.set.sensors.begin(), measured.set.sensors.end(), in_the_air);
+    });
 }
 
 }  // namespace
 
-std::vector<float> luminous_factors(const Scene& scene, const std::vector<vec3>& factors) {
-    const vec3 luminance(0.2126f, 0.7152f, 0.0722f);
-    std::vector<float> result;
-    for (size_t i = 0; i < factors.size(); ++i) {
-        const float full = dot(luminance, scene.lights[i].intensity);
-        result.push_back(full > 0 ? dot(luminance, scene.lights[i].intensity * factors[i]) / full : factors[i].y);
-    }
-    return result;
-}
-
 PowerSetting parse_ambiance(const std::string& text, const Scene& scene) {
     const size_t colon = text.find(':');
     const std::string name = trimmed(text.substr(0, colon));
-    if (colon == std::string::npos && !name.empty())
-        return {name, luminous_factors(scene, chosen_factors(scene, name, {}))};
-    if (name.empty()) throw Error("--ambiance \"" + text + "\": write NAME, or NAME: LAMP=FACTOR, LAMP=FACTOR ...");
+    if (colon == std::string::npos && !name.empty()) return {name, chosen_factors(scene, name, {})};
+    if (name.empty()) throw Error("--ambiance \"" + text + "\": write NAME, or NAME: LAMP=FACTOR[@KELVIN], ...");
     std::vector<std::string> powers = split(text.substr(colon + 1), ',');
     std::erase(powers, "");
-    return {name, luminous_factors(scene, parse_powers(scene, powers))};
+    return {name, parse_powers(scene, powers)};
 }
 
 Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
@@ -145,7 +158,7 @@ Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, s
     for (SensorSet& set : sets) {
         if (!set.task.empty()) find_task(set.task);
         const size_t count = set.sensors.size();
-        survey.sets.push_back({std::move(set), std::vector<Reading>(count)});
+        survey.sets.push_back({std::move(set), std::vector<Reading>(count), {}, {}});
     }
     survey.ambiances = std::move(ambiances);
     survey.maintenance = settings.maintenance;
@@ -155,25 +168,73 @@ Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, s
     if (settings.error > 0) reach_error(scene, caster, map, all, settings, survey);
     survey.map = std::move(map);
     survey.caustics = share_of_caustics(scene, survey.map);
-    if (survey.caustics > 0.02)
+    if (survey.caustics > 0.02 && has_sensor_in_the_air(scene, caster, survey))
         survey.warnings.push_back(
             text_of("%.1f %% of the reflected light came over mirrors or lenses straight from a point, spot or sun; "
-                    "sensors do not see such light arrive (they see it on surfaces around)",
+                    "sensors in the air do not see such light arrive (they see it on surfaces around)",
                     100 * survey.caustics));
     return survey;
 }
 
-Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const PowerSetting& ambiance,
-                         float maintenance) {
-    return statistics_of(measured.readings, values_of(measured, scene, ambiance, maintenance),
+void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey) {
+    const SurfaceReader surfaces(scene);
+    std::vector<SeenPlace> places;
+    std::vector<Place> sensors;
+    for (const Place& at : places_of(survey)) {
+        const Sensor sensor = lifted(surfaces, caster, survey.sets[at.set].set.sensors[at.sensor]);
+        const std::optional<Hit> hit = surface_under(surfaces, caster, sensor);
+        if (!hit) continue;
+        places.push_back({*hit, sensor.position + sensor.normal});
+        sensors.push_back(at);
+    }
+    for (MeasuredSet& measured : survey.sets)
+        measured.pins.assign(survey.ambiances.size(),
+                             std::vector<std::optional<Estimate>>(measured.set.sensors.size()));
+    if (places.empty()) return;
+    const Bvh bvh = build_bvh(scene);
+    const auto maintenance = double(survey.maintenance);
+    for (size_t a = 0; a < survey.ambiances.size(); ++a) {
+        const std::vector<vec3> weights = light_weights(scene, survey.ambiances[a].factors);
+        const std::vector<Measurement> read = measure(scene, caster, survey.map, bvh, weights, places);
+        for (size_t i = 0; i < read.size(); ++i)
+            survey.sets[sensors[i].set].pins[a][sensors[i].sensor] = {maintenance * double(read[i].lux),
+                                                                      maintenance * double(read[i].half_width_lux)};
+    }
+}
+
+void trace_survey(const Scene& scene, const RayCaster& caster, uint64_t paths, uint64_t seed, Survey& survey) {
+    const std::vector<vec3> weights = light_weights(scene, survey.ambiances[0].factors);
+    for (MeasuredSet& measured : survey.sets)
+        measured.traced = trace_sensors(scene, caster, weights, measured.set.sensors, {paths, seed});
+}
+
+bool agrees(const Value& value, const Traced& traced, float maintenance) {
+    const double truth = double(maintenance) * traced.lux, error = double(maintenance) * traced.standard_error;
+    return std::abs(value.lux - truth) <= std::hypot(value.half_width, 1.645 * error);
+}
+
+Agreement agreement_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance) {
+    const std::vector<Value> values = values_of(measured, ambiance, maintenance);
+    Agreement result;
+    for (size_t i = 0; i < measured.traced.size(); ++i) {
+        const double truth = double(maintenance) * measured.traced[i].lux;
+        if (!values[i].doubt.empty() || truth < least_lux) continue;
+        ++result.compared;
+        result.inside += agrees(values[i], measured.traced[i], maintenance);
+        result.difference += values[i].lux / truth - 1;
+    }
+    if (result.compared > 0) result.difference /= double(result.compared);
+    return result;
+}
+
+Statistics statistics_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance) {
+    return statistics_of(measured.readings, values_of(measured, ambiance, maintenance),
                          measured.set.kind == SensorSet::Kind::surface);
 }
 
-std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const PowerSetting& ambiance,
-                             float maintenance) {
+std::vector<Value> values_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance) {
     std::vector<Value> values;
-    for (const Reading& reading : measured.readings)
-        values.push_back(value_of(reading, scene, ambiance.factors, maintenance));
+    for (const Reading& reading : measured.readings) values.push_back(value_of(reading, ambiance.factors, maintenance));
     return values;
 }
 

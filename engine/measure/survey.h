@@ -5,25 +5,25 @@
 
 #include "measure/light_meter.h"
 #include "measure/statistics.h"
+#include "measure/traced.h"
 
 namespace lw {
 
 /// A named set of powers.
 struct PowerSetting {
     std::string name;
-    std::vector<float> factors;  // per lamp, of the power in the file
+    std::vector<vec3> factors;  // per lamp and colour, of the power in the file
 };
 
-/// Factors per channel as factors of the lamp's own luminous power: exact for light of the lamp's colour.
-std::vector<float> luminous_factors(const Scene& scene, const std::vector<vec3>& factors);
-
-/// "NAME" of the scene's ambiances, or "NAME: LAMP=FACTOR, LAMP=FACTOR ..." (lamps not named stay at 1). Throws Error
+/// "NAME" of the scene's ambiances, or "NAME: LAMP=FACTOR[@KELVIN], ..." (lamps not named stay at 1). Throws Error
 /// for an unknown name or lamp.
 PowerSetting parse_ambiance(const std::string& text, const Scene& scene);
 
 struct MeasuredSet {
     SensorSet set;
     std::vector<Reading> readings;
+    std::vector<std::vector<std::optional<Estimate>>> pins;  // of each ambiance, then of each sensor: see add_pins()
+    std::vector<Traced> traced;                              // of each sensor, or empty: see trace_survey()
 };
 
 struct SurveySettings {
@@ -32,6 +32,7 @@ struct SurveySettings {
     double ray_error = 0.02;    // part of that which rays may leave; a sensor gets more of them until it is reached
     uint most_rays = 1u << 14;  // per sensor; 16 times as many with `error`
     uint64_t most_photons = 64'000'000;
+    uint64_t memory = 0;    // bytes a bake for `error` may take; 0: what the machine has available
     float maintenance = 1;  // part of the lamps' light that is left (maintenance factor)
 };
 
@@ -52,12 +53,28 @@ struct Survey {
 Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
                    std::vector<PowerSetting> ambiances, const SurveySettings& settings);
 
+/// Beside the values of planar sensors that lie on surfaces: what a pin of the walkthrough reads there, from the
+/// photons on that very surface (maps/probe.h), another estimator of the same light.
+void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey);
+
+/// Path traces every sensor that is not blocked in the first ambiance with `paths` paths.
+void trace_survey(const Scene& scene, const RayCaster& caster, uint64_t paths, uint64_t seed, Survey& survey);
+
 /// The sums of one set in one ambiance.
-Statistics statistics_of(const MeasuredSet& measured, const Scene& scene, const PowerSetting& ambiance,
-                         float maintenance);
+Statistics statistics_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance);
 
 /// The values of one set in one ambiance.
-std::vector<Value> values_of(const MeasuredSet& measured, const Scene& scene, const PowerSetting& ambiance,
-                             float maintenance);
+std::vector<Value> values_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance);
+
+/// How the values of a set agree with the path tracer.
+struct Agreement {
+    size_t compared = 0;    // trusted sensors over 1 lx
+    size_t inside = 0;      // whose difference lies within the 90 % interval of the difference
+    double difference = 0;  // mean of value / traced - 1
+};
+Agreement agreement_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance);
+
+/// Whether a value and a traced one agree: their difference lies in the interval, the traced one's error added.
+bool agrees(const Value& value, const Traced& traced, float maintenance);
 
 }  // namespace lw

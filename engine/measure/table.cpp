@@ -30,11 +30,11 @@ std::string verdict_of(const MeasuredSet& measured, const Statistics& statistics
     return name_of(judge(statistics, find_task(measured.set.task)).both());
 }
 
-std::string row_of(const MeasuredSet& measured, size_t i, const PowerSetting& ambiance, const Survey& survey,
-                   const Scene& scene) {
+std::string row_of(const MeasuredSet& measured, size_t i, size_t a, const Survey& survey, const Scene& scene) {
+    const PowerSetting& ambiance = survey.ambiances[a];
     const Sensor& sensor = measured.set.sensors[i];
     const Reading& reading = measured.readings[i];
-    const Value value = value_of(reading, scene, ambiance.factors, survey.maintenance);
+    const Value value = value_of(reading, ambiance.factors, survey.maintenance);
     const glm::dvec3 at = glm::dvec3(sensor.position) + scene.origin;
     std::string row = quoted(measured.set.name) + "," + name_of(measured.set.kind) + "," +
                       quoted(name_of_sensor(measured.set, i)) +
@@ -43,10 +43,16 @@ std::string row_of(const MeasuredSet& measured, size_t i, const PowerSetting& am
                       name_of(sensor.response) + "," + quoted(ambiance.name) +
                       format(",%.5g,%.5g,%.5g,%.3g,%.3g,", value.lux, std::max(value.lux - value.half_width, 0.0),
                              value.lux + value.half_width, value.ray_error, value.photon_error);
-    if (reading.on_surface) row += format("%.5g", photon_map_lux(reading, ambiance.factors, survey.maintenance));
-    row += format(",%.0f,", double(reading.photons)) + quoted(value.doubt);
+    row += format("%.0f,", value.photons) + quoted(value.doubt);
+    const bool has_pin = a < measured.pins.size() && measured.pins[a][i];
+    row += has_pin ? format(",%.5g,%.3g", measured.pins[a][i]->value, measured.pins[a][i]->half_width) : ",,";
+    const bool is_traced = a == 0 && i < measured.traced.size();
+    row += is_traced ? format(",%.5g,%.3g,%s", measured.traced[i].lux * double(survey.maintenance),
+                              measured.traced[i].standard_error * double(survey.maintenance),
+                              agrees(value, measured.traced[i], survey.maintenance) ? "yes" : "no")
+                     : ",,,";
     for (size_t lamp = 0; lamp < scene.lights.size(); ++lamp)
-        row += format(",%.5g", lux_of_lamp(reading, scene, lamp) * double(ambiance.factors[lamp] * survey.maintenance));
+        row += format(",%.5g", lux_of_lamp(reading, lamp, ambiance.factors[lamp]) * double(survey.maintenance));
     return row + "\n";
 }
 
@@ -60,23 +66,23 @@ std::string name_of_sensor(const SensorSet& set, size_t i) {
 
 std::string sensors_as_csv(const Survey& survey, const Scene& scene) {
     std::string text =
-        "field,kind,sensor,x,y,z,nx,ny,nz,response,ambiance,lux,low,high,ray_error,photon_error,photon_map_lux,photons,"
-        "doubt";
+        "field,kind,sensor,x,y,z,nx,ny,nz,response,ambiance,lux,low,high,ray_error,photon_error,photons,doubt,"
+        "pin_lux,pin_half_width,traced_lux,traced_error,agrees";
     for (const std::string& name : scene.light_names) text += "," + quoted("lux of " + name);
     text += "\n";
     for (const MeasuredSet& measured : survey.sets)
-        for (const PowerSetting& ambiance : survey.ambiances)
-            for (size_t i = 0; i < measured.readings.size(); ++i) text += row_of(measured, i, ambiance, survey, scene);
+        for (size_t a = 0; a < survey.ambiances.size(); ++a)
+            for (size_t i = 0; i < measured.readings.size(); ++i) text += row_of(measured, i, a, survey, scene);
     return text;
 }
 
-std::string fields_as_csv(const Survey& survey, const Scene& scene) {
+std::string fields_as_csv(const Survey& survey) {
     std::string text =
         "field,task,ambiance,count,blocked,doubtful,Emin,Emin_half_width,Eavg,Eavg_half_width,Emax,Emax_half_width,U0,"
         "U0_half_width,Ud,Ud_half_width,required_lux,required_U0,verdict\n";
     for (const MeasuredSet& measured : survey.sets)
         for (const PowerSetting& ambiance : survey.ambiances) {
-            const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
+            const Statistics s = statistics_of(measured, ambiance, survey.maintenance);
             text += quoted(measured.set.name) + "," + measured.set.task + "," + quoted(ambiance.name) +
                     format(",%zu,%zu,%zu", s.count, s.blocked, s.doubtful);
             for (const Estimate& e : {s.minimum, s.average, s.maximum, s.u0, s.ud})
@@ -89,13 +95,24 @@ std::string fields_as_csv(const Survey& survey, const Scene& scene) {
     return text;
 }
 
-std::string fields_as_text(const Survey& survey, const Scene& scene) {
+std::string agreement_as_text(const Survey& survey) {
+    std::string text;
+    const PowerSetting& ambiance = survey.ambiances[0];
+    for (const MeasuredSet& measured : survey.sets) {
+        const Agreement a = agreement_of(measured, ambiance, survey.maintenance);
+        text += format("%-16s %-12s path traced: %zu of %zu intervals hold, mean difference %+.2f %%\n",
+                       measured.set.name.c_str(), ambiance.name.c_str(), a.inside, a.compared, 100 * a.difference);
+    }
+    return text;
+}
+
+std::string fields_as_text(const Survey& survey) {
     std::string text = format("%-16s %-12s %6s %16s %16s %16s %14s %6s  %s\n", "field", "ambiance", "points", "Eavg lx",
                               "Emin lx", "Emax lx", "U0", "Ud", "task");
     const auto lux = [](Estimate e) { return format("%.4g +- %.2g", e.value, e.half_width); };
     for (const MeasuredSet& measured : survey.sets)
         for (const PowerSetting& ambiance : survey.ambiances) {
-            const Statistics s = statistics_of(measured, scene, ambiance, survey.maintenance);
+            const Statistics s = statistics_of(measured, ambiance, survey.maintenance);
             text += format("%-16s %-12s %6zu %16s %16s %16s %14s %6.2f  %s %s", measured.set.name.c_str(),
                            ambiance.name.c_str(), s.count, lux(s.average).c_str(), lux(s.minimum).c_str(),
                            lux(s.maximum).c_str(), format("%.2f +- %.2f", s.u0.value, s.u0.half_width).c_str(),

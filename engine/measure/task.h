@@ -1,4 +1,5 @@
-// What a room needs for its task: maintained illuminance and uniformity after EN 12464-1:2011, sections 4 and 5.
+// What a room needs for its task: maintained illuminance and uniformity after EN 12464-1, the edition of 2021 or, where
+// said, that of 2011.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +10,8 @@ struct Task {
     std::string name;
     double illuminance;  // lx, maintained, mean of the field
     double uniformity;   // least U0 = minimum / mean
-    std::string what;
+    int edition;         // year of EN 12464-1
+    std::string what;    // with the row or section
 };
 
 const std::vector<Task>& known_tasks();

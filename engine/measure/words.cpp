@@ -17,6 +17,7 @@ std::vector<std::string> read_lines(const std::filesystem::path& path) {
     if (bytes > 64'000'000) throw Error(path.string() + ": larger than 64 MB");
     std::vector<std::string> lines;
     for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    if (!lines.empty() && lines[0].starts_with("\xEF\xBB\xBF")) lines[0].erase(0, 3);  // as spreadsheets write it
     return lines;
 }
 

@@ -81,7 +81,9 @@ Photometry parse_eulumdat(const std::string& text, const std::string& name) {
         reader.line("the colour rendering");
         reader.line("the watts");
         if (set > 0) continue;  // the sets are alternatives
-        absolute = lamps<0, lumens = flux, photometry.color_temperature = temperature> 500 ? temperature : 0;
+        absolute = lamps < 0;
+        lumens = flux;
+        photometry.color_temperature = temperature > 500 && temperature < 1e5 ? temperature : 0;
     }
     if (!(lumens > 0)) reader.fail("the flux of the lamps must be positive");
     for (int i = 0; i < 10; ++i) reader.line("the direct ratios");
@@ -89,6 +91,7 @@ Photometry parse_eulumdat(const std::string& text, const std::string& name) {
     for (size_t i = 0; i < planes; ++i) all.push_back(number_on_line(reader, "a C angle"));
     for (size_t i = 0; i < verticals; ++i) photometry.vertical.push_back(number_on_line(reader, "a G angle"));
     if (!rises(all) || !rises(photometry.vertical)) reader.fail("the angles must rise");
+    if (all.front() < 0 || all.back() > 360) reader.fail("the C planes lie outside 0 to 360");
     if (photometry.vertical.front() < 0 || photometry.vertical.back() > 180)
         reader.fail("the G angles lie outside 0 to 180");
     photometry.horizontal = given_planes(all, symmetry, reader);
@@ -97,7 +100,7 @@ Photometry parse_eulumdat(const std::string& text, const std::string& name) {
         if (value < 0) reader.fail("an intensity is negative");
         photometry.candela.push_back(value * (conversion > 0 ? conversion : 1) * lumens / 1000);
     }
-    if (symmetry == 0 && photometry.horizontal.size() > 1) {  // the circle closes with its first plane
+    if (symmetry == 0 && planes > 1 && all.back() < 360) {  // the circle closes with its first plane
         photometry.horizontal.push_back(360);
         photometry.candela.insert(photometry.candela.end(), photometry.candela.begin(),
                                   photometry.candela.begin() + ptrdiff_t(verticals));

@@ -10,7 +10,10 @@ namespace lw {
 NumberReader::NumberReader(const std::string& text, const std::string& name) : text_(text), name_(name) {}
 
 void NumberReader::fail(const std::string& what) const {
-    throw Error(name_ + ": line " + std::to_string(line_) + ": " + what);
+    std::string text = name_ + ": line " + std::to_string(line_) + ": " + what;
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+    throw Error(text);
 }
 
 std::string NumberReader::line(const std::string& what) {

@@ -13,6 +13,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double degrees = 180 / pi;
 constexpr double largest_difference = 0.1;  // between the flux of a file and what it states
+constexpr double most_candela = 1e12;       // a thousand lighthouses of a thousand million candela
 
 /// A plane the file gives for one that follows by symmetry; C in [0, 360).
 double folded(const std::vector<double>& planes, double c) {
@@ -58,11 +59,14 @@ double interpolated(const Photometry& p, double horizontal, double vertical) {
 }
 
 void check_flux(const Photometry& photometry, const std::string& name) {
+    for (const double value : photometry.candela)
+        if (!(value <= most_candela)) throw Error(name + ": gives more than 1e12 cd");
     const double flux = flux_of(photometry), stated = photometry.stated_output;
     if (!(flux > 0)) throw Error(name + ": gives no light");
-    if (stated > 0 && std::abs(flux / stated - 1) > largest_difference)
-        throw Error(name + ": its intensities give " + std::to_string(int(flux)) + " lm but it states " +
-                    std::to_string(int(stated)) + " lm");
+    if (!(stated > 0) || std::abs(flux / stated - 1) <= largest_difference) return;
+    char text[96];
+    std::snprintf(text, sizeof text, ": its intensities give %.5g lm but it states %.5g lm", flux, stated);
+    throw Error(name + text);
 }
 
 }  // namespace
@@ -111,7 +115,10 @@ std::string summary_of(const Photometry& photometry) {
                       100 * light_output_ratio(photometry), photometry.lamp_lumens);
         line += text;
     }
-    if (photometry.color_temperature > 0) line += ", " + std::to_string(int(photometry.color_temperature)) + " K";
+    if (photometry.color_temperature > 0) {
+        std::snprintf(text, sizeof text, ", %.0f K", photometry.color_temperature);
+        line += text;
+    }
     return line;
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "scene/camera.h"
 #include "scene/json_file.h"
+#include "scene/profile.h"
 
 namespace lw {
 namespace {
@@ -36,8 +37,12 @@ LampSetting setting_from(const Json& value, const std::string& where) {
         } else if (key == "color") {
             if (!part.is_array() || part.size() != 3) fail(where, "color must be [red, green, blue]");
             for (int c = 0; c < 3; ++c) setting.color[c] = factor_from(part[size_t(c)], where + ": color");
+        } else if (key == "kelvin") {
+            if (!part.is_number()) fail(where, "kelvin must be a number");
+            setting.kelvin = part.get<float>();
+            if (!(setting.kelvin >= 1000 && setting.kelvin <= 15000)) fail(where, "kelvin must be from 1000 to 15000");
         } else {
-            fail(where, "unknown entry \"" + key + "\" (there are factor and color)");
+            fail(where, "unknown entry \"" + key + "\" (there are factor, color and kelvin)");
         }
     }
     return setting;
@@ -96,14 +101,20 @@ void save_lamp_book(const std::filesystem::path& path, const LampBook& book) {
     for (const auto& [name, ambiance] : book.ambiances) {
         Json& lamps = file["ambiances"][name] = Json::object();
         for (const auto& [lamp, s] : ambiance) {
-            if (s.color == vec3(1))
-                lamps[lamp] = s.factor;
-            else
-                lamps[lamp] = {{"factor", s.factor}, {"color", {s.color.x, s.color.y, s.color.z}}};
+            lamps[lamp] = s.factor;
+            if (s.color == vec3(1) && s.kelvin == 0) continue;
+            lamps[lamp] = {{"factor", s.factor}};
+            if (s.color != vec3(1)) lamps[lamp]["color"] = {s.color.x, s.color.y, s.color.z};
+            if (s.kelvin != 0) lamps[lamp]["kelvin"] = s.kelvin;
         }
     }
     for (const auto& [name, lamps] : book.groups) file["groups"][name] = lamps;
     write_json(path, file);
+}
+
+vec3 factor_of(const LampSetting& setting, vec3 intensity) {
+    const vec3 factor = setting.factor * setting.color;
+    return setting.kelvin > 0 ? factor * filter_to_temperature(intensity, double(setting.kelvin)) : factor;
 }
 
 std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance) {
@@ -116,7 +127,12 @@ std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance) {
             throw Error(scene.path.string() + ": no lamp \"" + lamp +
                         "\", which an ambiance names; there are: " + names);
         }
-        factors[size_t(found - scene.light_names.begin())] = setting.factor * setting.color;
+        const auto i = size_t(found - scene.light_names.begin());
+        try {
+            factors[i] = factor_of(setting, scene.lights[i].intensity);
+        } catch (const Error& e) {
+            fail(scene.path.string() + ": lamp \"" + lamp + "\" of an ambiance", e.what());
+        }
     }
     return factors;
 }

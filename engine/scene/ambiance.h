@@ -1,8 +1,10 @@
 // Ambiances: named sets of lamp powers, kept in SCENE.ambiances.json beside the scene with groups of lamps made by
 // hand.
-//   { "ambiances": { "Evening": { "Pendant": 0.4, "Lounge": { "factor": 1.2, "color": [1, 0.8, 0.6] } } },
+//   { "ambiances": { "Evening": { "Pendant": 0.4, "Desk": { "factor": 1, "kelvin": 2700 },
+//                                 "Lounge": { "factor": 1.2, "color": [1, 0.8, 0.6] } } },
 //     "groups": { "Ceiling": ["Pendant", "Spot"] } }
-// A factor multiplies the power the lamp has in the scene file; a color is a filter, linear Rec.709, 1 passes all.
+// A factor multiplies the power the lamp has in the scene file; a color is a filter, linear Rec.709, 1 passes all;
+// kelvin gives the lamp the colour of a black body at its own luminance (scene/profile.h).
 // Lamps that an ambiance does not name keep the power of the scene file.
 #pragma once
 #include <map>
@@ -16,6 +18,7 @@ namespace lw {
 struct LampSetting {
     float factor = 1;
     vec3 color{1};
+    float kelvin = 0;  // 0: the lamp's own colour
     bool operator==(const LampSetting&) const = default;
 };
 
@@ -34,6 +37,9 @@ LampBook load_lamp_book(const std::filesystem::path& path);
 
 /// Throws Error naming the file when it cannot be written.
 void save_lamp_book(const std::filesystem::path& path, const LampBook& book);
+
+/// What the setting of a lamp of this intensity multiplies it by, by colour. Throws Error as filter_to_temperature().
+vec3 factor_of(const LampSetting& setting, vec3 intensity);
 
 /// One factor per lamp of the scene and channel. Throws Error naming a lamp that the scene does not have.
 std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "scene/profile.h"
 
 namespace lw {
 namespace {
@@ -14,16 +15,28 @@ std::string joined(const std::vector<std::string>& names) {
     return text;
 }
 
-float parse_factor(const std::string& text, const std::string& option) {
+/// A number, or -1.
+float parse_number(const std::string& text) {
     size_t used = 0;
-    float factor = -1;
+    float number = -1;
     try {
-        factor = std::stof(text, &used);
+        number = std::stof(text, &used);
     } catch (const std::exception&) {
     }
-    if (used != text.size() || !std::isfinite(factor) || factor < 0)
-        throw Error("--power " + option + ": the factor must be a number of at least 0");
-    return factor;
+    return used == text.size() && std::isfinite(number) ? number : -1;
+}
+
+/// "FACTOR", "FACTOR@KELVIN" or "FACTOR@KELVINK" of a lamp of this intensity.
+vec3 parse_factor(const std::string& text, vec3 intensity) {
+    const size_t at = text.find('@');
+    const float factor = parse_number(text.substr(0, at));
+    if (factor < 0) throw Error("the factor must be a number of at least 0");
+    if (at == std::string::npos) return vec3(factor);
+    std::string kelvin = text.substr(at + 1);
+    if (kelvin.ends_with('K')) kelvin.pop_back();
+    const float temperature = parse_number(kelvin);
+    if (temperature < 1000 || temperature > 15000) throw Error("the colour temperature must be 1000 to 15000 K");
+    return factor * filter_to_temperature(intensity, double(temperature));
 }
 
 }  // namespace
@@ -52,7 +65,12 @@ std::vector<vec3> parse_powers(const Scene& scene, const std::vector<std::string
         const auto found = std::find(scene.light_names.begin(), scene.light_names.end(), text.substr(0, equals));
         if (found == scene.light_names.end())
             throw Error("--power " + text + ": no lamp of this name; there are: " + joined(scene.light_names));
-        factors[size_t(found - scene.light_names.begin())] = vec3(parse_factor(text.substr(equals + 1), text));
+        const auto lamp = size_t(found - scene.light_names.begin());
+        try {
+            factors[lamp] = parse_factor(text.substr(equals + 1), scene.lights[lamp].intensity);
+        } catch (const Error& e) {
+            throw Error("--power " + text + ": " + e.what());
+        }
     }
     return factors;
 }

@@ -12,8 +12,9 @@ const Camera& find_camera(const Scene& scene, const std::string& name);
 /// Unit direction through pixel position (x, y), in pixels from the top left corner; pixel centres at .5.
 vec3 camera_direction(const Camera& camera, float x, float y, int width, int height);
 
-/// Dimmer per lamp (R, G and B alike) from "NAME=FACTOR" texts, 1 where none is given. Throws Error for an unknown lamp
-/// or a factor that is not a finite number >= 0.
+/// Factor per lamp and colour from "NAME=FACTOR" texts, 1 where none is given, or "NAME=FACTOR@KELVIN", which gives the
+/// lamp the colour of a black body too. Throws Error for an unknown lamp, a factor that is not a finite number >= 0, or
+/// a temperature outside 1,000 to 15,000 K.
 std::vector<vec3> parse_powers(const Scene& scene, const std::vector<std::string>& texts);
 
 }  // namespace lw

@@ -50,6 +50,16 @@ vec3 color_of_temperature(double kelvin) {
     return visible / dot(visible, vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
+vec3 filter_to_temperature(vec3 intensity, double kelvin) {
+    const vec3 wanted = color_of_temperature(kelvin) * dot(intensity, vec3(0.2126f, 0.7152f, 0.0722f));
+    vec3 filter(0);
+    for (int c = 0; c < 3; ++c) {
+        if (wanted[c] > 0 && !(intensity[c] > 0)) throw Error("the lamp's own light lacks a colour to be filtered");
+        if (wanted[c] > 0) filter[c] = wanted[c] / intensity[c];
+    }
+    return filter;
+}
+
 void attach_photometry(const Photometry& photometry, Light& light, Scene& scene) {
     const bool round = photometry.type == Photometry::Type::C && photometry.horizontal.size() == 1;
     const uint columns = round ? 1 : columns_of_table;

@@ -13,6 +13,10 @@ namespace lw {
 /// that of the colour temperature the file gives; dimmed for its tilt. The content hash is left to the caller.
 void attach_photometry(const Photometry& photometry, Light& light, Scene& scene);
 
+/// Factors by colour that give a lamp the colour of a black body of this many kelvin at its own luminance. Throws Error
+/// for a lamp that lacks a colour which that light has.
+vec3 filter_to_temperature(vec3 intensity, double kelvin);
+
 /// Linear Rec. 709 of luminance 1 of a black body of this many kelvin, 1,000 to 15,000 (Krystek 1985).
 vec3 color_of_temperature(double kelvin);
 

@@ -1,7 +1,7 @@
-// The 90 % interval of a sensor covers the path tracer's illuminance in 85 to 95 % of the cases, bias included: 200
-// sensors a scene, in the air and 1 mm over surfaces. truth_*.csv hold them with lux and standard error of
-// PathTracer::irradiance (apartment 240,000 paths each, cornell 200,000); the interval of the difference adds that
-// error.
+// The 90 % intervals of sensors, and of the pins of those on surfaces, cover the path tracer's illuminance in 85 to 95
+// % of the cases, bias included: 200 sensors a scene, in the air and 1 mm over surfaces. truth_*.csv hold them with lux
+// and standard error of PathTracer::irradiance (apartment 240,000 paths each, cornell 200,000); the interval of the
+// difference adds that error.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,6 +36,7 @@ Truth read_truth(const std::string& name) {
 struct Coverage {
     size_t covered = 0, trusted = 0, lit = 0;
     double bias = 0;  // mean of measured / true - 1
+    size_t pins = 0, pins_covered = 0;
 };
 
 /// Sensors under 1 lx are left out, and those the meter itself does not trust.
@@ -45,14 +46,20 @@ Coverage coverage_of(const std::string& file, const std::string& name, uint64_t 
     const Truth truth = read_truth(name);
     const PhotonMap map =
         build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1});
-    const std::vector<float> full(scene.lights.size(), 1.0f);
-    const Survey survey = make_survey(
-        scene, caster, map, {{SensorSet::Kind::points, "points", "", truth.sensors, {}, {}}}, {{"all", full}}, {});
-    const std::vector<Value> values = values_of(survey.sets[0], scene, survey.ambiances[0], 1);
+    const std::vector<vec3> full(scene.lights.size(), vec3(1));
+    Survey survey = make_survey(scene, caster, map, {{SensorSet::Kind::points, "points", "", truth.sensors, {}, {}}},
+                                {{"all", full}}, {});
+    add_pins(scene, caster, survey);
+    const std::vector<Value> values = values_of(survey.sets[0], survey.ambiances[0], 1);
     Coverage result;
     for (size_t i = 0; i < values.size(); ++i) {
         if (truth.lux[i] < 1) continue;
         ++result.lit;
+        if (const std::optional<Estimate>& pin = survey.sets[0].pins[0][i]) {
+            ++result.pins;
+            result.pins_covered +=
+                std::abs(pin->value - truth.lux[i]) <= std::hypot(pin->half_width, 1.645 * truth.error[i]);
+        }
         if (!values[i].doubt.empty()) continue;
         ++result.trusted;
         const double allowed = std::hypot(values[i].half_width, 1.645 * truth.error[i]);
@@ -69,6 +76,10 @@ void expect_honest(const Coverage& c) {
     EXPECT_GE(double(c.covered), 0.85 * double(c.trusted)) << c.covered << " of " << c.trusted << ", bias " << c.bias;
     EXPECT_LE(double(c.covered), 0.95 * double(c.trusted)) << c.covered << " of " << c.trusted << ", bias " << c.bias;
     EXPECT_LT(std::abs(c.bias), 0.01);
+    EXPECT_GE(c.pins, 90u);
+    EXPECT_GE(double(c.pins_covered), 0.85 * double(c.pins)) << c.pins_covered << " of " << c.pins;
+    EXPECT_LE(double(c.pins_covered), 0.95 * double(c.pins)) << c.pins_covered << " of " << c.pins;
+    std::printf("pins: %zu of %zu; ", c.pins_covered, c.pins);
     std::printf("covered %zu of %zu trusted of %zu lit, bias %+.2f %%\n", c.covered, c.trusted, c.lit, 100 * c.bias);
 }
 

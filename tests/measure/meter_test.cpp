@@ -54,8 +54,8 @@ TEST(Meter, LightDoesNotPassAWallWithoutThickness) {
     for (const float x : {2.0f, 2.0005f, 2.001f, 2.01f, 3.0f}) east.push_back({{x, 1, 1}, {1, 0, 0}, Response::planar});
     east.push_back({{2, 0, 0}, {1, 0, 0}, Response::planar});  // in a corner of three surfaces
     east.push_back({{3, 0, 1}, {0, 1, 0}, Response::planar});
-    const Survey survey = survey_of(scene, {points(east)}, {{"all", {1, 1}}});
-    for (const Value& value : values_of(survey.sets[0], scene, survey.ambiances[0], 1))
+    const Survey survey = survey_of(scene, {points(east)}, {{"all", {vec3(1), vec3(1)}}});
+    for (const Value& value : values_of(survey.sets[0], survey.ambiances[0], 1))
         EXPECT_LT(value.lux, 1e-3);  // the other side has more than 100 lx
 }
 
@@ -66,8 +66,8 @@ TEST(Meter, SensorsOnSurfacesAndInCornersSeeTheirSide) {
                                              {{1.999f, 1, 1}, {-1, 0, 0}, Response::planar},
                                              {{0, 0, 0}, {0, 1, 0}, Response::planar},
                                              {{0.002f, 0.001f, 0.002f}, {0, 1, 0}, Response::planar}})},
-                                    {{"all", {1, 0}}});
-    const std::vector<Value> v = values_of(survey.sets[0], scene, survey.ambiances[0], 1);
+                                    {{"all", {vec3(1), vec3(0)}}});
+    const std::vector<Value> v = values_of(survey.sets[0], survey.ambiances[0], 1);
     EXPECT_GT(v[0].lux, 100);  // the direct light alone is 100 lx
     EXPECT_NEAR(v[0].lux / v[1].lux, 1, 0.05);
     EXPECT_GT(v[2].lux, 100 / std::pow(3.0, 1.5));
@@ -76,12 +76,13 @@ TEST(Meter, SensorsOnSurfacesAndInCornersSeeTheirSide) {
 
 TEST(Meter, ValuesAreLinearInThePowers) {
     const Scene scene = two_chambers();
-    const Survey survey = survey_of(scene, {points({{{1, 0.7f, 1.5f}, {0, 1, 0}, Response::planar}})},
-                                    {{"point", {1, 0}}, {"panel", {0, 1}}, {"both", {0.25f, 3}}});
+    const Survey survey =
+        survey_of(scene, {points({{{1, 0.7f, 1.5f}, {0, 1, 0}, Response::planar}})},
+                  {{"point", {vec3(1), vec3(0)}}, {"panel", {vec3(0), vec3(1)}}, {"both", {vec3(0.25f), vec3(3)}}});
     double lux[3];
-    for (size_t a = 0; a < 3; ++a) lux[a] = values_of(survey.sets[0], scene, survey.ambiances[a], 1)[0].lux;
+    for (size_t a = 0; a < 3; ++a) lux[a] = values_of(survey.sets[0], survey.ambiances[a], 1)[0].lux;
     EXPECT_NEAR(lux[2], 0.25 * lux[0] + 3 * lux[1], 1e-4 * lux[2]);
-    EXPECT_NEAR(values_of(survey.sets[0], scene, survey.ambiances[2], 0.8f)[0].lux, 0.8 * lux[2], 1e-4 * lux[2]);
+    EXPECT_NEAR(values_of(survey.sets[0], survey.ambiances[2], 0.8f)[0].lux, 0.8 * lux[2], 1e-4 * lux[2]);
 }
 
 TEST(Meter, ReadsTheSameAtAnyThreadCount) {
@@ -91,7 +92,7 @@ TEST(Meter, ReadsTheSameAtAnyThreadCount) {
     std::vector<std::string> tables;
     for (const unsigned threads : {1u, 2u}) {
         const ThreadLimit limit(threads);
-        tables.push_back(sensors_as_csv(survey_of(scene, {points(sensors)}, {{"all", {1, 1}}}), scene));
+        tables.push_back(sensors_as_csv(survey_of(scene, {points(sensors)}, {{"all", {vec3(1), vec3(1)}}}), scene));
     }
     EXPECT_EQ(tables[0], tables[1]);
 }
@@ -103,14 +104,14 @@ TEST(Meter, AnErrorAskedForIsReachedByBakingAgain) {
     SurveySettings settings;
     settings.error = 0.02;
     const Survey survey = make_survey(scene, caster, map, {points({{{1, 0.7f, 1.5f}, {0, -1, 0}, Response::planar}})},
-                                      {{"all", {1, 1}}}, settings);
+                                      {{"all", {vec3(1), vec3(1)}}}, settings);
     EXPECT_GT(survey.bakes, 0u);
     EXPECT_GT(survey.map.stored_photons, map.stored_photons);
-    EXPECT_LE(values_of(survey.sets[0], scene, survey.ambiances[0], 1)[0].relative(), 0.02);
+    EXPECT_LE(values_of(survey.sets[0], survey.ambiances[0], 1)[0].relative(), 0.02);
     EXPECT_EQ(survey.unreached, 0u);
     settings.most_photons = 4000;
     const Survey bounded = make_survey(scene, caster, map, {points({{{1, 0.7f, 1.5f}, {0, -1, 0}, Response::planar}})},
-                                       {{"all", {1, 1}}}, settings);
+                                       {{"all", {vec3(1), vec3(1)}}}, settings);
     EXPECT_EQ(bounded.unreached, 1u);
     EXPECT_FALSE(bounded.warnings.empty());
 }
@@ -120,8 +121,8 @@ TEST(Meter, TooFewPhotonsAreDoubted) {
     const RayCaster caster(scene);
     const PhotonMap map = build_photon_map(scene, caster, shoot_photons(scene, caster, {60, 1}), {60, 0, 60, 1});
     const Survey survey = make_survey(scene, caster, map, {points({{{1, 0.7f, 1.5f}, {0, -1, 0}, Response::planar}})},
-                                      {{"all", {1, 1}}}, {});
-    EXPECT_FALSE(values_of(survey.sets[0], scene, survey.ambiances[0], 1)[0].doubt.empty());
+                                      {{"all", {vec3(1), vec3(1)}}}, {});
+    EXPECT_FALSE(values_of(survey.sets[0], survey.ambiances[0], 1)[0].doubt.empty());
 }
 
 TEST(Grid, SpacingFollowsEn12464) {
@@ -176,6 +177,8 @@ TEST(Grid, PointsOfAFileAndTheirErrors) {
     EXPECT_EQ(set.sensor_names[1], "wall");
     EXPECT_EQ(set.sensors[1].normal, vec3(0, 0, 1));
     EXPECT_EQ(set.sensors[2].response, Response::cylindrical);
+    write_text(folder / "marked.csv", "\xEF\xBB\xBFname,x,y,z\r\nseat,1,1.2,1\r\n");  // as spreadsheets write it
+    EXPECT_EQ(read_points(folder / "marked.csv", scene).sensors.size(), 1u);
     write_text(folder / "bad.csv", "name,x,y,z\nseat,1,1.2\n");
     EXPECT_NE(error_of([&] { read_points(folder / "bad.csv", scene); }).find("bad.csv: line 2: "), std::string::npos);
     write_text(folder / "nan.csv", "seat,1,nan,3\n");
@@ -238,6 +241,36 @@ TEST(Program, MeasuresTheCubeToAFileAndAReport) {
     EXPECT_NE(html.find("</html>"), std::string::npos);
     EXPECT_EQ(html.find("http"), std::string::npos) << "nothing outside the file";
     EXPECT_EQ(folder.names().size(), 3u);
+}
+
+TEST(Program, AnErrorAskedForBakesWithoutAMapAndKeepsTheBake) {
+    const TempFolder folder;
+    const std::string scene = folder / "cube.gltf", map = folder / "kept.pmap";
+    std::filesystem::copy_file(LUMENWALK_SOURCE_DIR "/data/cube.gltf", scene);
+    const std::string grid = "mid: -1,0,-1 to 1,0,1 spacing=1";
+    const Outcome baked = run("measure", {scene, "--grid", grid, "--error", "3", "--save-map", map});
+    EXPECT_EQ(baked.exit_code, 0) << baked.err;
+    EXPECT_NE(baked.out.find("million photons"), std::string::npos) << baked.out;
+    EXPECT_NE(baked.out.find("wrote " + map), std::string::npos) << baked.out;
+    const Outcome again = run("measure", {scene, map, "--grid", grid});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(run("measure", {scene, map, "--grid", grid, "--save-map", folder / "x.pmap"}).exit_code, 2);
+    const Outcome nowhere =
+        run("measure", {scene, "--grid", grid, "--photons", "2000", "--save-map", folder / "no/x.pmap"});
+    EXPECT_EQ(nowhere.exit_code, 1);
+    EXPECT_NE(nowhere.err.find("x.pmap"), std::string::npos) << nowhere.err;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"cube.gltf", "kept.pmap"}));
+}
+
+TEST(Program, ComparesItsSensorsWithPathTracing) {
+    const TempFolder folder;
+    const Outcome outcome =
+        run("measure", {"data/cube.gltf", "--photons", "50000", "--grid", "mid: -1,0,-1 to 1,0,1 spacing=0.5",
+                        "--reference", "4000", "--csv", folder / "s.csv", "--report", folder / "r.html"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("path traced: "), std::string::npos) << outcome.out;
+    EXPECT_NE(read_text(folder / "s.csv").find(",yes,"), std::string::npos);
+    EXPECT_NE(read_text(folder / "r.html").find("Compared with path tracing"), std::string::npos);
 }
 
 TEST(Program, FindsTheReflectionsOfAViewAndNoneInItsMatteTwin) {

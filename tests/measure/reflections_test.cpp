@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "measure/guth.h"
 #include "scene/gltf.h"
 #include "trace/emitter.h"
 
@@ -17,19 +18,38 @@ namespace {
 
 std::string file_in_data(const std::string& name) { return std::string(LUMENWALK_SOURCE_DIR "/data/") + name; }
 
-TEST(Glare, PositionIndexOfGuthsTable) {
+TEST(Glare, PositionIndexIsGuthsTable) {
     const vec3 forward(0, 0, -1), up(0, 1, 0);
-    const auto at = [&](double right, double above) {  // in distances along the line of sight
+    const auto at = [&](double right, double above) {  // T/R and H/R
         return position_index(normalize(vec3(float(right), float(above), -1)), forward, up);
     };
     EXPECT_NEAR(at(0, 0), 1, 1e-6);
-    EXPECT_NEAR(at(1, 0), 2.11, 0.12 * 2.11);    // CIE 117, table 4.1: T/R = 1, H/R = 0
-    EXPECT_NEAR(at(0, 0.5), 2.86, 0.12 * 2.86);  // T/R = 0, H/R = 0.5
-    EXPECT_NEAR(at(0, 1), 7.00, 0.12 * 7);
-    EXPECT_EQ(at(0, -0.5), at(0.5, 0));
-    EXPECT_NEAR(at(0.5, 1e-4), at(0.5, -1e-4), 1e-3);
+    EXPECT_NEAR(at(1, 0), 2.11, 1e-4);  // entries of CIE 117, table 4.1
+    EXPECT_NEAR(at(0, 0.5), 2.86, 1e-4);
+    EXPECT_NEAR(at(0, 1), 7.00, 1e-4);
+    EXPECT_NEAR(at(2, 1.9), 16, 1e-4);
+    EXPECT_NEAR(at(0.95, 0.25), (2.54 + 2.90 + 2.75 + 3.10) / 4, 1e-4);
+    EXPECT_NEAR(at(0, -0.5), at(0.5, 0), 1e-6);
+    EXPECT_NEAR(at(0.5, 1e-4), at(0.5, -1e-4), 1e-2);
     EXPECT_EQ(at(0.3, 0.2), at(-0.3, 0.2));
+    EXPECT_TRUE(std::isinf(at(0, 1.85)));  // the table has no entry
+    EXPECT_TRUE(std::isinf(at(3.1, 0)));
     EXPECT_TRUE(std::isinf(position_index(vec3(0, 0, 1), forward, up)));
+}
+
+/// Levin's formula (1975) was fitted to the same data as the table: no entry of it is off by more than 10 %.
+TEST(Glare, PositionIndexIsNearLevinsFormula) {
+    const vec3 forward(0, 0, -1), up(0, 1, 0);
+    for (int t = 0; t <= 30; ++t)
+        for (int h = 0; h <= 16; ++h) {
+            const double right = t / 10.0, above = h / 10.0;
+            const double sigma = std::atan(std::hypot(right, above)) * 180 / M_PI;
+            const double tau = h == 0 ? 90 : std::atan2(right, above) * 180 / M_PI;
+            const double levin = std::exp((35.2 - 0.31889 * tau - 1.22 * std::exp(-2 * tau / 9)) * 1e-3 * sigma +
+                                          (21 + 0.26667 * tau - 0.002963 * tau * tau) * 1e-5 * sigma * sigma);
+            const double p = position_index(normalize(vec3(float(right), float(above), -1)), forward, up);
+            EXPECT_NEAR(p / levin, 1, 0.1) << right << " " << above;
+        }
 }
 
 /// A closed black box and a lamp in it: a square of 0.2 m, 1 m straight ahead of the eye.

@@ -37,7 +37,7 @@ class Laboratory {
     void add(const std::string& section, const std::string& what, const std::string& formula, const Scene& scene,
              const std::vector<Sensor>& sensors, const std::vector<double>& expected) {
         const Survey survey = measure(scene, {{SensorSet::Kind::points, "points", "", sensors, {}, {}}});
-        const std::vector<Value> values = values_of(survey.sets[0], scene, survey.ambiances[0], 1);
+        const std::vector<Value> values = values_of(survey.sets[0], survey.ambiances[0], 1);
         for (size_t i = 0; i < sensors.size(); ++i)
             results.push_back({section, what, formula, expected[i], values[i].lux, values[i].half_width});
     }
@@ -52,7 +52,7 @@ class Laboratory {
         const Survey survey = measure(scene, std::move(sets));
         double sum = 0, error = 0;
         for (const MeasuredSet& set : survey.sets) {
-            const Statistics s = statistics_of(set.readings, values_of(set, scene, survey.ambiances[0], 1));
+            const Statistics s = statistics_of(set.readings, values_of(set, survey.ambiances[0], 1));
             sum += s.average.value, error += s.average.half_width;
         }
         const double factor = as_mean ? 1.0 / double(objects.size()) : area_each;
@@ -63,8 +63,7 @@ class Laboratory {
     void add_grid(const std::string& section, const std::string& what, const std::string& formula, const Scene& scene,
                   const std::string& grid, double expected) {
         const Survey survey = measure(scene, {make_grid(parse_grid(grid), scene)});
-        const Statistics s =
-            statistics_of(survey.sets[0].readings, values_of(survey.sets[0], scene, survey.ambiances[0], 1));
+        const Statistics s = statistics_of(survey.sets[0].readings, values_of(survey.sets[0], survey.ambiances[0], 1));
         results.push_back({section, what, formula, expected, s.average.value, s.average.half_width});
     }
 
@@ -79,7 +78,7 @@ class Laboratory {
         SurveySettings survey;
         survey.ray_error = 0.008;
         return make_survey(scene, caster, build_photon_map(scene, caster, photons, settings), std::move(sets),
-                           {{"all", std::vector<float>(scene.lights.size(), 1.0f)}}, survey);
+                           {{"all", std::vector<vec3>(scene.lights.size(), vec3(1))}}, survey);
     }
 
     uint64_t photons_;

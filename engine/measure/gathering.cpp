@@ -1,0 +1,174 @@
+#include "measure/gathering.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trace/bsdf.h"
+#include "trace/sampling.h"
+
+namespace lw {
+namespace {
+
+constexpr int longest_path = 64;
+constexpr float least_used_coverage = 0.75f;
+/// Noise of a narrow lobe is averaged over the rays, so it is widened less than in a picture: widening loses light at
+/// grazing angles.
+constexpr float narrowest_reflected_roughness = 0.2f;
+constexpr float narrowest_direct_roughness = 0.1f;  // a mirror-like coat shows lamps a little widened
+
+/// The power heuristic: part of a sample of density `own` where another way has density `other`.
+float share_of(float own, float other) { return own * own / (own * own + other * other); }
+
+}  // namespace
+
+void PhotonShares::add(uint reference, ChannelLux value) {
+    if (!(value.x + value.y + value.z > 0)) return;
+    if (lux[reference] == vec3(0)) touched.push_back(reference);
+    lux[reference] += value;
+}
+
+void PhotonShares::clear() {
+    for (const uint reference : touched) lux[reference] = vec3(0);
+    touched.clear();
+}
+
+void Gatherer::add_emission(const Surface& s, vec3 to_view, float weight, Gathering& to) const {
+    to.lamps[size_t(s.light)] += to.throughput * emitters_.radiance(s, to_view) * weight;
+}
+
+/// Light that lamps send to a surface around and it sends on.
+void Gatherer::add_lamps(const Seen& at, LampChoice choice, Gathering& to) const {
+    const Surface& s = at.surface;
+    for (uint lamp = 0; lamp < light_count; ++lamp) {
+        if (lights[lamp].type == light_mesh && choice == LampChoice::without_meshes) continue;
+        const float u = to.rng.next(), v = to.rng.next();
+        const std::optional<Incident> in = emitters_.arrive(lamp, s.position, u, v);
+        if (!in || dot(in->to_light, at.n_geometric) <= 0 || dot(in->to_light, at.n_shading) <= 0) continue;
+        const vec3 f = to.throughput * eval_brdf(s, at.n_shading, at.to_eye, in->to_light, false) *
+                       dot(in->to_light, at.n_shading);
+        if (f.x + f.y + f.z <= 0) continue;
+        const vec3 light =
+            f * in->radiance * caster_.transmittance(caster_.offset(s.position, at.n_geometric), in->position);
+        float weight = in->pdf > 0 ? 1 / in->pdf : 1.0f;
+        if (in->pdf > 0 && choice == LampChoice::with_path)
+            weight *= share_of(in->pdf, bsdf_pdf(*this, s, at.to_eye, in->to_light));
+        to.lamps[lamp] += light * weight;
+    }
+}
+
+/// Photons of a grid under an Epanechnikov kernel of which the part `covered` lies on surface.
+void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
+                           Gathering& to) const {
+    const float r2 = radius * radius, peak = 2 / (lw_pi * r2) * inverse_flux_scale / covered;
+    Surface s = at.surface;
+    s.roughness = std::max(s.roughness, narrowest_reflected_roughness);
+    const vec3 diffuse = eval_brdf(s, at.n_shading, at.to_eye, at.n_shading, true);
+    visit_photons(grid, position_in_grid(grid, s.position), radius, [&](uint i, PhotonPlace place, float d2) {
+        const uint lamp = light_of(place);
+        if (!with_meshes && lights[lamp].type == light_mesh) return;
+        vec3 f = diffuse;
+        if (has_directions) {
+            const vec3 from = unpack_direction(photon_direction(i));
+            const float tilt = clamp(dot(at.n_shading, from) / std::max(dot(at.n_geometric, from), 0.05f), 0.0f, 2.0f);
+            f = eval_brdf(s, at.n_shading, at.to_eye, from, false) * tilt;
+        }
+        const vec3 light = to.throughput * f * unpack_rgb9e5(photon_flux(i)) * (peak * (1 - d2 / r2));
+        to.lamps[lamp] += light;
+        to.shares.add(i, file_lux(lamp, light));
+    });
+}
+
+/// Reflected light of the photons within half the radius of the map: a radius that does not follow the photons leaves
+/// their sum unbiased, and noise at one surface point is averaged over the rays.
+void Gatherer::add_reflected(const Seen& at, Gathering& to) const {
+    if (at.at.map == no_map) return;
+    const float radius = 0.5f * at.at.grid.radius;
+    add_photons(at.at.grid, radius, has_coverage ? coverage_at(at.at, radius) : 1.0f, at, true, to);
+}
+
+/// Light of lamps by mirrors and lenses alone, far sharper: from its own grids with the bandwidth of a picture. Meshes
+/// are left out where the path goes on and finds them itself.
+void Gatherer::add_caustics(const Seen& at, bool with_meshes, Gathering& to) const {
+    const uint own = has_caustics ? caustic_map_of(at.triangle, at.front) : no_map;
+    if (own == no_map) return;
+    const SurfaceGrid& grid = grid_at(own);
+    const float radius = caustic_radius(grid, position_in_grid(grid, at.surface.position));
+    add_photons(grid, radius, caustic_coverage(at.at, grid, radius), at, with_meshes, to);
+}
+
+/// Whether the photons around a point speak for it: they lie on enough surface (the mean of the inverse of a small
+/// coverage is too large), and nothing stands between, or light would pass under walls.
+bool Gatherer::is_resolved(const Seen& seen) const {
+    constexpr int feelers = 6;
+    constexpr float reach = 1.2f;  // over cos 30 degrees, so that a wall between two feelers is met
+    if (seen.at.map == no_map) return true;
+    const float radius = 0.5f * seen.at.grid.radius;
+    if (has_coverage && coverage_at(seen.at, radius) < least_used_coverage) return false;
+    const mat3 frame = frame_around(seen.n_geometric);
+    const vec3 start = caster_.offset(seen.surface.position, seen.n_geometric);
+    for (int i = 0; i < feelers; ++i)
+        if (caster_.nearest(start, frame * direction_of(0, float(i) / feelers), reach * radius)) return false;
+    return true;
+}
+
+/// The surface of a hit as a ray meets it that comes from `to_view`.
+auto Gatherer::seen_from(vec3 to_view, const Hit& hit, const Surface& s) const -> Seen {
+    const bool front = dot(s.geometric_normal, to_view) >= 0;
+    const vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal, n = front ? s.normal : -s.normal;
+    const MapPlace at = place_on(map_of(hit.triangle, front), s.position);
+    return {hit.triangle, s, at, to_view, n_geometric, dot(n, to_view) > 1e-4f ? n : n_geometric, front};
+}
+
+/// Through glass, over mirrors, and off surfaces that are closer or smaller than the photons resolve (else corners and
+/// furniture would be brighter or darker than they are).
+void Gatherer::gather(vec3 origin, vec3 direction, Gathering& to) const {
+    // Direct light of the sensor is already counted, but not what comes over a mirror or a lens; after a surface that
+    // was walked on from, lamps are found by both ways.
+    bool emission = false;
+    vec3 medium(0);                    // absorption of what the ray goes through, 1/m
+    float density = 0, travelled = 0;  // of the last ray's direction, 0 for a mirror; m since it started
+    for (int depth = 0; depth < longest_path; ++depth) {
+        const std::optional<Hit> hit = caster_.nearest(origin, direction);
+        if (!hit) return;
+        const Surface s = surface_at(hit->triangle, hit->barycentrics);
+        if (s.flags & material_unlit) return;
+        const vec3 to_view = -direction;
+        travelled += hit->distance;
+        to.throughput *= passed_by_medium(absorption_before(*this, s, direction, medium), hit->distance);
+        if (emission && s.light >= 0) {
+            const float other = density > 0 ? emitters_.arrive_pdf(s, travelled, direction) : 0.0f;
+            add_emission(s, to_view, density > 0 ? share_of(density, other) : 1.0f, to);
+        }
+        Seen at = seen_from(to_view, *hit, s);
+        const bool specular = is_purely_specular(s);
+        const bool sharp = !specular && s.metallic > 0.5f && s.roughness < narrowest_gathered_roughness;
+        const bool close = hit->distance < 0.5f * max_radius || !is_resolved(at);
+        const bool walk_on = specular || sharp || close;
+        if (!walk_on) {
+            add_reflected(at, to);
+            at.surface.roughness = std::max(s.roughness, narrowest_direct_roughness);
+        }
+        if (!specular && (walk_on || !map_.settings.direct_in_photons))
+            add_lamps(at, sharp ? LampChoice::without_meshes : walk_on ? LampChoice::with_path : LampChoice::all, to);
+        if (!specular) add_caustics(at, !walk_on, to);
+        if (!walk_on && s.transmission <= 0) return;
+
+        const std::optional<Scatter> next = sample_bsdf(*this, s, to_view, Carries::radiance, to.rng);
+        if (!next) return;
+        const bool passes = dot(next->direction, at.n_geometric) < 0;
+        if (!walk_on && !passes) return;
+        to.throughput *= next->weight;
+        if (depth > 3) {
+            const float survival =
+                std::min(0.95f, std::max({to.throughput.x, to.throughput.y, to.throughput.z}) / lw_pi);
+            if (!(to.rng.next() < survival)) return;
+            to.throughput /= survival;
+        }
+        if (!next->straight) emission = true, density = next->specular || sharp ? 0.0f : next->pdf, travelled = 0;
+        direction = next->direction;
+        medium = absorption_after(*this, s, direction, medium);
+        origin = caster_.offset(s.position, passes ? -at.n_geometric : at.n_geometric);
+    }
+}
+
+}  // namespace lw

@@ -1,0 +1,67 @@
+// What a ray from a sensor brings back: followed to the first surface that photons can describe, where the photons of
+// the map and the direct light of the lamps say what each lamp sends on (final gathering; Jensen 2001, section 8.3.2).
+#pragma once
+#include <vector>
+
+#include "maps/estimate.h"
+#include "measure/reading.h"
+#include "trace/emitter.h"
+#include "trace/ray_caster.h"
+
+namespace lw {
+
+/// What each photon brings to the sensor at hand, at the file's powers: the spread of the whole sum.
+struct PhotonShares {
+    explicit PhotonShares(size_t references) : lux(references, vec3(0)) {}
+    void add(uint reference, ChannelLux value);
+    void clear();
+    std::vector<ChannelLux> lux;
+    std::vector<uint> touched;
+};
+
+/// A ray to the surroundings and what it brought so far.
+struct Gathering {
+    vec3 throughput;           // lux per radiance and RGB
+    std::vector<vec3>& lamps;  // lx per unit intensity and RGB
+    PhotonShares& shares;
+    Rng& rng;
+};
+
+/// Which lamps light a surface around by their own samples: all; all but meshes, which its next ray finds; all, but
+/// meshes together with the next ray (multiple importance sampling, Veach 1997).
+enum class LampChoice { all, without_meshes, with_path };
+
+/// Gathers in one scene and map. Thread-safe. All references must outlive it.
+class Gatherer : public PhotonEstimator {
+  public:
+    Gatherer(const Scene& scene, const RayCaster& caster, const PhotonMap& map)
+        : PhotonEstimator(scene, map, no_weights_, {gather_mode_smooth, 1, 0}),
+          scene_(scene),
+          caster_(caster),
+          emitters_(scene) {}
+
+    /// Follows a ray and adds what it brings.
+    void gather(vec3 origin, vec3 direction, Gathering& to) const;
+
+    /// Light of one lamp per unit intensity and RGB as lux of its power in the file.
+    ChannelLux file_lux(uint lamp, vec3 per_intensity) const {
+        return per_intensity * scene_.lights[lamp].intensity * vec3(0.2126f, 0.7152f, 0.0722f);
+    }
+
+  protected:
+    Seen seen_from(vec3 to_view, const Hit& hit, const Surface& s) const;
+    bool is_resolved(const Seen& seen) const;
+    void add_emission(const Surface& s, vec3 to_view, float weight, Gathering& to) const;
+    void add_lamps(const Seen& at, LampChoice choice, Gathering& to) const;
+    void add_reflected(const Seen& at, Gathering& to) const;
+    void add_caustics(const Seen& at, bool with_meshes, Gathering& to) const;
+    void add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
+                     Gathering& to) const;
+
+    static inline const std::vector<vec3> no_weights_;
+    const Scene& scene_;
+    const RayCaster& caster_;
+    Emitters emitters_;
+};
+
+}  // namespace lw

@@ -1,0 +1,27 @@
+// The truth at a sensor: illuminance by the reference path tracer, which shares scene and lamps with the photons but
+// none of their estimators. Caustics of points and suns are traced from the lamps, as lumenwalk-reference does.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "measure/sensor.h"
+#include "trace/ray_caster.h"
+
+namespace lw {
+
+/// Mean of many paths and its standard error, lx.
+struct Traced {
+    double lux = 0;
+    double standard_error = 0;
+};
+
+struct TraceSettings {
+    uint64_t paths = 10'000;  // per sensor
+    uint64_t seed = 1;
+};
+
+/// `weights`: RGB power of each lamp (light_weights()). Sensors on surfaces stand 1 mm off, as when they are read.
+std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& weights,
+                                  std::span<const Sensor> sensors, const TraceSettings& settings);
+
+}  // namespace lw
