@@ -236,20 +236,45 @@ std::vector<uint> append_grids(const Scene& scene, const Partition& partition, c
     return kept;
 }
 
-/// Lays the lattices and computes what their nodes keep. All lengths follow the largest radius R: nodes every 0.5 R, a
-/// sample every 0.03 R2 (26 under a kernel of R/2).
-void add_lattices(const Scene& scene, const RayCaster& caster, const Partition& partition,
-                  const std::vector<uint>& kept, PhotonMap& map) {
+/// The point of space over which node i of a map lies.
+vec3 place_of_node(const SurfaceGrid& grid, uint i, float height) {
+    const SurfaceLattice& lattice = grid.lattice;
+    const vec2 at = lattice.low + vec2(float(i % lattice.columns), float(i / lattice.columns)) * lattice.step;
+    return grid.origin + at.x * grid.u_axis + at.y * grid.v_axis + height * grid.normal;
+}
+
+/// The coverage of all nodes: in closed form where the ground is plane, from samples elsewhere, one every 0.03 R2 (26
+/// under a kernel of R/2).
+std::vector<uint> find_coverage(const Scene& scene, const RayCaster& caster, const Partition& partition,
+                                const std::vector<uint>& kept, const std::vector<NodePoint>& nodes,
+                                const PhotonMap& map) {
     const float radius = map.settings.radius;
-    std::vector<PatchShape> shapes;
-    for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
-    const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.5f * radius, map);
+    std::vector<CoverageLevels> coverage(nodes.size(), CoverageLevels{1, 1, 1, 1});
+    std::vector<std::vector<uint>> others(kept.size());
+    parallel_for(kept.size(), [&](size_t m) {
+        const uint first = map.grids[m].lattice.first_node;
+        find_flat_coverage(scene, caster, map, m, partition.shapes[kept[m]], &nodes[first], &coverage[first], others[m]);
+    });
+    Neighbourhoods wanted(1.01f * radius);
+    for (size_t m = 0; m < kept.size(); ++m)
+        for (uint i : others[m])
+            wanted.add(place_of_node(map.grids[m], i, nodes[map.grids[m].lattice.first_node + i].height));
     const std::vector<Photon> samples =
-        sample_surfaces(scene, caster, partition.patches, 0.03f * radius * radius, clearance_of(radius));
+        sample_surfaces(scene, caster, partition.patches, wanted, 0.03f * radius * radius, clearance_of(radius));
     const References references = find_references({scene, samples, partition.patches, partition.shapes, partition.radii,
                                                    map.settings.neighbour_angle_deg, partition.neighbours});
+    sample_coverage(map, nodes, samples, references, kept, others, coverage);
+    return pack_coverage(coverage);
+}
+
+/// Lays the lattices, nodes every half of the largest radius, and computes what their nodes keep.
+void add_lattices(const Scene& scene, const RayCaster& caster, const Partition& partition,
+                  const std::vector<uint>& kept, PhotonMap& map) {
+    std::vector<PatchShape> shapes;
+    for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
+    const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.5f * map.settings.radius, map);
     if (!map.settings.direct_in_photons) map.visible_lamps = find_visibility(scene, caster, map, nodes);
-    map.coverage = find_coverage(scene, map, nodes, samples, references, kept);
+    map.coverage = find_coverage(scene, caster, partition, kept, nodes, map);
     map.irradiance = find_irradiance(scene, caster, map, nodes, map.irradiance_scale);
 }
 

@@ -60,6 +60,7 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
                x1 = node(std::ceil(high.x / lattice.step.x), lattice.columns),
                y0 = node(std::floor(low.y / lattice.step.y), lattice.rows),
                y1 = node(std::ceil(high.y / lattice.step.y), lattice.rows);
+    const float farthest2 = 1.01f * dot(lattice.step, lattice.step);  // the diagonal of a cell
     for (uint y = y0; y <= y1; ++y)
         for (uint x = x0; x <= x1; ++x) {
             NodePoint& point = nodes[lattice.first_node + y * lattice.columns + x];
@@ -67,6 +68,7 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
             vec2 nearest;
             const vec2 weights = nearest_barycentrics(corners[0] - at, corners[1] - at, corners[2] - at, nearest);
             const float squared = dot(nearest, nearest);
+            if (squared > farthest2) continue;
             const float distance2 =
                 squared < 1e-6f * dot(lattice.step, lattice.step) ? 0 : squared;  // over the surface
             const float height =
