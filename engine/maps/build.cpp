@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "maps/coverage.h"
+#include "maps/fill_grid.h"
 #include "maps/irradiance.h"
-#include "maps/packing.h"
 #include "maps/patches.h"
 #include "maps/references.h"
 #include "maps/visibility.h"
@@ -18,7 +18,6 @@ namespace lw {
 namespace {
 
 constexpr float patch_size_in_radii = 6;  // size of a patch in search radii (study: 4 to 8)
-constexpr double references_per_cell = 2.5;
 constexpr double references_per_photon = 2.3;  // what small patches are tightened to; 2.5 is promised
 
 /// The grid in the frame of its patch; origin and sizes follow from its photons.
@@ -30,93 +29,6 @@ SurfaceGrid frame_of(const PatchShape& shape, float radius) {
     grid.origin = shape.anchor;
     grid.radius = radius;
     return grid;
-}
-
-/// What a map keeps of a photon, packed once for all maps that refer to it.
-struct Record {
-    vec3 position;
-    uint origin, flux, direction;
-};
-
-std::vector<Record> pack_photons(const std::vector<Photon>& photons, float flux_scale, bool directions) {
-    std::vector<Record> records(photons.size());
-    parallel_for(
-        photons.size(),
-        [&](size_t i) {
-            const Photon& p = photons[i];
-            records[i] = {p.position, p.origin, pack_rgb9e5(p.flux * flux_scale),
-                          directions ? pack_direction(p.from) : 0};
-        },
-        4096);
-    return records;
-}
-
-/// Moves the origin to the corner of the photons' bounds and sets quantum and cells for `count` references.
-void fit_grid(SurfaceGrid& grid, const std::vector<Record>& photons, const uint* first, const uint* last) {
-    vec3 low(1e30f), high(-1e30f);
-    for (const uint* i = first; i != last; ++i) {
-        const vec3 offset = photons[*i].position - grid.origin;
-        const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
-        low = min(low, local), high = max(high, local);
-    }
-    const vec3 reach = max(abs(grid.origin), vec3(1e-20f));
-    const float floor_size = 1e-6f * std::max({reach.x, reach.y, reach.z});
-    const vec3 extent = max((high - low) * 1.0001f, vec3(floor_size));
-    grid.origin += grid.u_axis * low.x + grid.v_axis * low.y;
-    grid.h_origin = low.z;
-    grid.quantum = extent / 65535.0f;
-    const auto count = double(last - first);
-    const double cells = std::max(1.0, count / references_per_cell);
-    double cell = std::sqrt(double(extent.x) * double(extent.y) / cells);
-    // Few or coincident photons: no cells so small that a search over the radius visits thousands.
-    cell = std::max({cell, double(extent.x) / cells, double(extent.y) / cells, double(grid.radius) / 256});
-    grid.cell_size = float(cell);
-    grid.columns = uint(std::max(1.0, std::ceil(double(extent.x) / double(grid.cell_size))));
-    grid.rows = uint(std::max(1.0, std::ceil(double(extent.y) / double(grid.cell_size))));
-}
-
-PhotonPlace place_of(const Record& photon, const SurfaceGrid& grid) {
-    const vec3 offset = photon.position - grid.origin;
-    const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal) - grid.h_origin);
-    const auto step = [](float v, float quantum) {  // rounded to nearest
-        const float steps = std::min(std::max(v / quantum, 0.0f), 65535.0f);
-        const int below = int(steps);
-        return uint(below) + (steps - float(below) >= 0.5f ? 1u : 0u);
-    };
-    return {step(local.x, grid.quantum.x) | step(local.y, grid.quantum.y) << 16,
-            step(local.z, grid.quantum.z) | (photon.origin & 0xffffu) << 16};
-}
-
-uint cell_of(PhotonPlace place, const SurfaceGrid& grid) {
-    const vec3 local = place_in_grid(place, grid);
-    const uint x = std::min(uint(local.x / grid.cell_size), grid.columns - 1);
-    const uint y = std::min(uint(local.y / grid.cell_size), grid.rows - 1);
-    return y * grid.columns + x;
-}
-
-/// Writes the records of one map in cell order.
-void fill_grid(PhotonMap& map, uint index, const std::vector<Record>& photons, const uint* first, const uint* last,
-               uint begin) {
-    const SurfaceGrid& grid = map.grids[index];
-    const size_t count = size_t(last - first);
-    std::vector<PhotonPlace> places(count);
-    std::vector<uint> cells(count);
-    std::vector<uint> next(grid.columns * grid.rows + 1, 0);
-    for (size_t i = 0; i < count; ++i) {
-        places[i] = place_of(photons[first[i]], grid);
-        cells[i] = cell_of(places[i], grid);
-        ++next[cells[i] + 1];
-    }
-    next[0] = begin;
-    for (size_t c = 1; c < next.size(); ++c) next[c] += next[c - 1];
-    std::copy(next.begin(), next.end() - 1, map.cell_starts.begin() + grid.first_cell);
-    for (size_t i = 0; i < count; ++i) {
-        const Record& photon = photons[first[i]];
-        const uint slot = next[cells[i]]++;
-        map.places[slot] = places[i];
-        map.fluxes[slot] = photon.flux;
-        if (map.has_directions()) map.directions[slot] = photon.direction;
-    }
 }
 
 /// Brings the brightest photon to 2^12, so that RGB9E5 keeps 28 powers of two below it.
@@ -200,6 +112,20 @@ struct Partition {
     std::vector<float> radii;
 };
 
+/// Appends the cells of the grids from `first_grid` on: starts[i] are those of grid first_grid + i.
+void append_cells(const std::vector<std::vector<uint>>& starts, size_t first_grid, PhotonMap& map) {
+    if (!map.cell_starts.empty()) map.cell_starts.pop_back();  // the end of the last cell
+    uint64_t cells = map.cell_starts.size();
+    for (size_t i = 0; i < starts.size(); ++i) {
+        map.grids[first_grid + i].first_cell = uint(cells);
+        cells += starts[i].size();
+    }
+    if (cells >= no_map) throw Error("photon map: more than 2^32 cells; use fewer photons");
+    map.cell_starts.reserve(cells + 1);
+    for (const std::vector<uint>& part : starts) map.cell_starts.insert(map.cell_starts.end(), part.begin(), part.end());
+    map.cell_starts.push_back(uint(map.places.size()));
+}
+
 /// Appends the grids of a set of photons and which triangles they belong to; returns the patch of each grid.
 std::vector<uint> append_grids(const Scene& scene, const Partition& partition, const std::vector<Photon>& photons,
                                PhotonMap& map) {
@@ -207,32 +133,20 @@ std::vector<uint> append_grids(const Scene& scene, const Partition& partition, c
                                                    map.settings.neighbour_angle_deg, partition.neighbours});
     const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map);
     const size_t first_grid = map.grids.size(), first_place = map.places.size();
-    const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
-    const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
-
-    const bool directions = needs_directions(scene);
-    const std::vector<Record> records = pack_photons(photons, map.flux_scale, directions);
-    map.grids.resize(first_grid + kept.size());
-    parallel_for(kept.size(), [&](size_t m) {
-        map.grids[first_grid + m] = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
-        fit_grid(map.grids[first_grid + m], records, first(m), last(m));
-    });
-    uint64_t cells = map.cell_starts.empty() ? 0 : map.cell_starts.size() - 1;
-    for (size_t g = first_grid; g < map.grids.size(); ++g) {
-        map.grids[g].first_cell = uint(cells);
-        cells += uint64_t(map.grids[g].columns) * map.grids[g].rows;
-    }
-    if (cells >= no_map) throw Error("photon map: more than 2^32 cells; use fewer photons");
     const size_t end = first_place + references.photons.size();
-    map.cell_starts.resize(cells + 1);
-    map.cell_starts.back() = uint(end);
+    map.grids.resize(first_grid + kept.size());
     map.places.resize(end);
     map.fluxes.resize(end);
-    if (directions) map.directions.resize(end);
+    if (needs_directions(scene)) map.directions.resize(end);
+    std::vector<std::vector<uint>> starts(kept.size());
     parallel_for(kept.size(), [&](size_t m) {
-        fill_grid(map, uint(first_grid + m), records, first(m), last(m),
-                  uint(first_place + references.starts[kept[m]]));
+        SurfaceGrid& grid = map.grids[first_grid + m];
+        grid = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
+        const uint64_t first = references.starts[kept[m]], last = references.starts[kept[m] + 1];
+        starts[m] = fill_grid(grid, photons, {references.photons.data() + first, last - first}, uint(first_place + first),
+                              map);
     });
+    append_cells(starts, first_grid, map);
     return kept;
 }
 
