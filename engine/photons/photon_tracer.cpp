@@ -143,45 +143,52 @@ void PhotonTracer::read_matte(const Hit& hit, Surface& s) const {
 
 /// Sends the photon on from a surface, by roulette; false when it ends there.
 bool PhotonTracer::leave(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const {
-    const vec3 to_origin = -flight.direction;
-    const std::optional<Scatter> next = at.matte
-                                            ? scatter_matte(at.surface, to_origin, rng)
-                                            : sample_bsdf(surfaces_, at.surface, to_origin, Carries::flux, rng);
-    const vec3 reflected = next ? flight.flux * next->weight : vec3(0);
-    const float before = largest(flight.flux), after = largest(reflected);
+    if (at.matte) return leave_matte(chunk, flight, at, rng);
+    const std::optional<Scatter> next = sample_bsdf(surfaces_, at.surface, -flight.direction, Carries::flux, rng);
     // Ends what is caught in clear glass.
     const float longest_survival = flight.depth < depth_of_roulette || (next && !next->specular) ? 1.0f : 0.95f;
-    const float survival = before > 0 ? std::min(longest_survival, after / before) : 0.0f;
-    if (!(rng.next() < survival)) {
-        chunk.absorbed += balance_of(flight.flux);
-        return false;
-    }
-    const vec3 kept = reflected / survival;
-    chunk.absorbed += balance_of(flight.flux) - balance_of(kept);
-    flight.flux = kept;
+    if (!survives(chunk, flight, next ? next->weight : vec3(0), longest_survival, rng)) return false;
     if (!next->specular)
         flight.path = path_indirect;
     else if (flight.path == path_direct && !next->straight)  // shadow rays pass where light goes straight on
         flight.path = path_caustic;
     flight.direction = next->direction;
-    if (!at.matte) flight.medium = absorption_after(surfaces_, at.surface, flight.direction, flight.medium);
+    flight.medium = absorption_after(surfaces_, at.surface, flight.direction, flight.medium);
     const vec3 ng = at.surface.geometric_normal;
     flight.origin = caster_.offset(at.surface.position, dot(flight.direction, ng) > 0 ? ng : -ng);
     return true;
 }
 
-/// What sample_bsdf() does at a Lambert reflector of one colour.
-std::optional<Scatter> PhotonTracer::scatter_matte(const Surface& s, vec3 to_origin, Rng& rng) {
-    const float side = dot(s.geometric_normal, to_origin) >= 0 ? 1.0f : -1.0f;
-    const vec3 ng = s.geometric_normal * side;
-    const vec3 n = dot(s.normal, to_origin) * side > 1e-4f ? s.normal * side : ng;
+/// Roulette: the flux that goes on is `weight` times the arriving one on average. What ends is absorbed.
+bool PhotonTracer::survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival, Rng& rng) {
+    const vec3 reflected = flight.flux * weight;
+    const float before = largest(flight.flux), after = largest(reflected);
+    const float survival = before > 0 ? std::min(longest_survival, after / before) : 0.0f;
+    const bool goes_on = rng.next() < survival;
+    const vec3 kept = goes_on ? reflected * (1 / survival) : vec3(0);
+    chunk.absorbed += balance_of(flight.flux) - balance_of(kept);
+    flight.flux = kept;
+    return goes_on;
+}
+
+/// leave() a Lambert reflector of one colour: what sample_bsdf() does there, without asking for other lobes.
+bool PhotonTracer::leave_matte(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const {
+    const float side = at.back ? -1.0f : 1.0f;
+    const vec3 ng = at.surface.geometric_normal * side, bent = at.surface.normal * side;
+    const bool seen = -dot(bent, flight.direction) > 1e-4f;
+    const vec3 n(seen ? bent.x : ng.x, seen ? bent.y : ng.y, seen ? bent.z : ng.z);
     const float u = rng.next(), v = rng.next();
-    const vec3 direction = frame_around(n) * sample_cosine(u, v);
-    const float nl = dot(n, direction), out = dot(ng, direction);
-    if (nl <= 0 || out <= 0) return std::nullopt;
-    const float geometric = dot(ng, to_origin) * nl;  // flux at bent normals (Veach 1997, equation 5.18)
-    const float adjoint = geometric > 1e-6f ? std::max(dot(n, to_origin), 1e-4f) * out / geometric : 1.0f;
-    return Scatter{direction, s.base_color * adjoint, nl / lw_pi, false, false};
+    const vec3 local = sample_cosine(u, v), direction = frame_around(n) * local;
+    const float out = dot(ng, direction);
+    // Flux at bent normals (Veach 1997, equation 5.18); none leaves through the surface.
+    const float shading = std::max(-dot(n, flight.direction), 1e-4f) * out;
+    const float geometric = -dot(ng, flight.direction) * local.z;
+    const float adjoint = !(out > 0) ? 0.0f : geometric > 1e-6f ? shading / geometric : 1.0f;
+    if (!survives(chunk, flight, at.surface.base_color * adjoint, 1, rng)) return false;
+    flight.path = path_indirect;
+    flight.direction = direction;
+    flight.origin = caster_.offset(at.surface.position, ng);
+    return true;
 }
 
 }  // namespace lw

@@ -44,7 +44,8 @@ class PhotonTracer {
     void follow(Chunk& chunk, Flight flight, Rng& rng) const;
     bool meet(Chunk& chunk, Flight& flight, Bounce& at, Rng& rng) const;
     bool leave(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const;
-    static std::optional<Scatter> scatter_matte(const Surface& s, vec3 to_origin, Rng& rng);
+    bool leave_matte(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const;
+    static bool survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival, Rng& rng);
     void read_matte(const Hit& hit, Surface& s) const;
 
     const Scene& scene_;

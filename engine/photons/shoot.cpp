@@ -12,6 +12,7 @@ namespace lw {
 namespace {
 
 constexpr uint64_t chunk_size = 1024;           // paths per task
+constexpr size_t chunks_at_once = 128;
 constexpr uint64_t pilot_paths = 8192;          // per lamp, to learn what it stores
 constexpr uint64_t aim_paths = 131072;          // per sun, to learn where its light enters
 constexpr size_t most_pilot_photons = 100'000;  // of a task: enough to learn from, in a room that absorbs little
@@ -82,6 +83,13 @@ std::vector<uint64_t> plan_emission(const PhotonTracer& tracer, const Scene& sce
     return emitted;
 }
 
+void add_to(LightBalance& balance, const Chunk& chunk) {
+    balance.stored += chunk.photons.size();
+    balance.flux_out += chunk.emitted_flux;
+    balance.absorbed += chunk.absorbed;
+    balance.escaped += chunk.escaped;
+}
+
 }  // namespace
 
 Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSettings& settings) {
@@ -90,34 +98,28 @@ Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSe
     aim_suns(tracer, scene);
     const std::vector<uint64_t> emitted = plan_emission(tracer, scene, settings.photons);
     std::vector<Chunk> chunks = split_paths(emitted, std::vector<uint64_t>(emitted.size(), 0));
-    uint64_t paths = 0;
-    for (uint64_t n : emitted) paths += n;
-    {
-        Progress progress("photons", paths);
-        parallel_for(chunks.size(), [&](size_t i) {
-            tracer.trace(chunks[i], double(emitted[chunks[i].light]));
-            progress.step(chunks[i].last - chunks[i].first);
-        });
-    }
     Photons photons;
     photons.lights.resize(scene.lights.size());
-    std::vector<size_t> begins;
-    size_t total = 0;
-    for (const Chunk& chunk : chunks) {
-        begins.push_back(total);
-        total += chunk.photons.size();
-        LightBalance& balance = photons.lights[chunk.light];
-        balance.stored += chunk.photons.size();
-        balance.flux_out += chunk.emitted_flux;
-        balance.absorbed += chunk.absorbed;
-        balance.escaped += chunk.escaped;
-    }
     for (uint light = 0; light < emitted.size(); ++light) photons.lights[light].emitted = emitted[light];
-    photons.records.resize(total);
-    parallel_for(chunks.size(), [&](size_t i) {
-        std::copy(chunks[i].photons.begin(), chunks[i].photons.end(), photons.records.begin() + ptrdiff_t(begins[i]));
-        std::vector<Photon>().swap(chunks[i].photons);
-    });
+    photons.records.reserve(size_t(1.02 * double(settings.photons)));  // about what comes; more is no error
+    Progress progress("photons", chunks.size());
+    std::vector<std::vector<Photon>> buffers(chunks_at_once);  // used again and again: fresh memory costs time
+    for (size_t first = 0; first < chunks.size(); first += chunks_at_once) {
+        const size_t count = std::min(chunks_at_once, chunks.size() - first);
+        parallel_for(count, [&](size_t i) {
+            Chunk& chunk = chunks[first + i];
+            chunk.photons.swap(buffers[i]);
+            tracer.trace(chunk, double(emitted[chunk.light]));
+            progress.step();
+        });
+        for (size_t i = 0; i < count; ++i) {
+            Chunk& chunk = chunks[first + i];
+            add_to(photons.lights[chunk.light], chunk);
+            photons.records.insert(photons.records.end(), chunk.photons.begin(), chunk.photons.end());
+            chunk.photons.clear();
+            chunk.photons.swap(buffers[i]);
+        }
+    }
     return photons;
 }
 
