@@ -9,8 +9,6 @@
 namespace lw {
 namespace {
 
-constexpr double references_per_cell = 2.5;
-
 /// What a map keeps of a photon.
 struct Record {
     vec3 local;  // u, v, h from the anchor of the patch, m
