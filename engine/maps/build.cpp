@@ -8,9 +8,10 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "maps/coverage.h"
+#include "maps/fill_grid.h"
 #include "maps/irradiance.h"
-#include "maps/packing.h"
 #include "maps/patches.h"
+#include "maps/plane_maps.h"
 #include "maps/references.h"
 #include "maps/shadow_masks.h"
 #include "maps/smooth_caustics.h"
@@ -20,8 +21,10 @@ namespace lw {
 namespace {
 
 constexpr float patch_size_in_radii = 6;  // size of a patch in search radii (study: 4 to 8)
-constexpr double references_per_cell = 2.5;
-constexpr double references_per_photon = 2.3;  // what small patches are tightened to; 2.5 is promised
+constexpr float nodes_apart = 0.5f;           // search radii between the nodes of a lattice
+constexpr double most_references = 2.3;       // per photon, what small patches are tightened to; 2.5 is promised
+constexpr double fewest_references = 1.25;    // per photon: what lies around a patch is part of its estimate
+constexpr double most_bytes = 41;  // per photon, less what patches without photons of their own add; 48 is promised
 
 /// The grid in the frame of its patch; origin and sizes follow from its photons.
 SurfaceGrid frame_of(const PatchShape& shape, float radius) {
@@ -32,93 +35,6 @@ SurfaceGrid frame_of(const PatchShape& shape, float radius) {
     grid.origin = shape.anchor;
     grid.radius = radius;
     return grid;
-}
-
-/// What a map keeps of a photon, packed once for all maps that refer to it.
-struct Record {
-    vec3 position;
-    uint origin, flux, direction;
-};
-
-std::vector<Record> pack_photons(const std::vector<Photon>& photons, float flux_scale, bool directions) {
-    std::vector<Record> records(photons.size());
-    parallel_for(
-        photons.size(),
-        [&](size_t i) {
-            const Photon& p = photons[i];
-            records[i] = {p.position, p.origin, pack_rgb9e5(p.flux * flux_scale),
-                          directions ? pack_direction(p.from) : 0};
-        },
-        4096);
-    return records;
-}
-
-/// Moves the origin to the corner of the photons' bounds and sets quantum and cells for `count` references.
-void fit_grid(SurfaceGrid& grid, const std::vector<Record>& photons, const uint* first, const uint* last) {
-    vec3 low(1e30f), high(-1e30f);
-    for (const uint* i = first; i != last; ++i) {
-        const vec3 offset = photons[*i].position - grid.origin;
-        const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
-        low = min(low, local), high = max(high, local);
-    }
-    const vec3 reach = max(abs(grid.origin), vec3(1e-20f));
-    const float floor_size = 1e-6f * std::max({reach.x, reach.y, reach.z});
-    const vec3 extent = max((high - low) * 1.0001f, vec3(floor_size));
-    grid.origin += grid.u_axis * low.x + grid.v_axis * low.y;
-    grid.h_origin = low.z;
-    grid.quantum = extent / 65535.0f;
-    const auto count = double(last - first);
-    const double cells = std::max(1.0, count / references_per_cell);
-    double cell = std::sqrt(double(extent.x) * double(extent.y) / cells);
-    // Few or coincident photons: no cells so small that a search over the radius visits thousands.
-    cell = std::max({cell, double(extent.x) / cells, double(extent.y) / cells, double(grid.radius) / 256});
-    grid.cell_size = float(cell);
-    grid.columns = uint(std::max(1.0, std::ceil(double(extent.x) / double(grid.cell_size))));
-    grid.rows = uint(std::max(1.0, std::ceil(double(extent.y) / double(grid.cell_size))));
-}
-
-PhotonPlace place_of(const Record& photon, const SurfaceGrid& grid) {
-    const vec3 offset = photon.position - grid.origin;
-    const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal) - grid.h_origin);
-    const auto step = [](float v, float quantum) {  // rounded to nearest
-        const float steps = std::min(std::max(v / quantum, 0.0f), 65535.0f);
-        const int below = int(steps);
-        return uint(below) + (steps - float(below) >= 0.5f ? 1u : 0u);
-    };
-    return {step(local.x, grid.quantum.x) | step(local.y, grid.quantum.y) << 16,
-            step(local.z, grid.quantum.z) | (photon.origin & 0xffffu) << 16};
-}
-
-uint cell_of(PhotonPlace place, const SurfaceGrid& grid) {
-    const vec3 local = place_in_grid(place, grid);
-    const uint x = std::min(uint(local.x / grid.cell_size), grid.columns - 1);
-    const uint y = std::min(uint(local.y / grid.cell_size), grid.rows - 1);
-    return y * grid.columns + x;
-}
-
-/// Writes the records of one map in cell order.
-void fill_grid(PhotonMap& map, uint index, const std::vector<Record>& photons, const uint* first, const uint* last,
-               uint begin) {
-    const SurfaceGrid& grid = map.grids[index];
-    const size_t count = size_t(last - first);
-    std::vector<PhotonPlace> places(count);
-    std::vector<uint> cells(count);
-    std::vector<uint> next(grid.columns * grid.rows + 1, 0);
-    for (size_t i = 0; i < count; ++i) {
-        places[i] = place_of(photons[first[i]], grid);
-        cells[i] = cell_of(places[i], grid);
-        ++next[cells[i] + 1];
-    }
-    next[0] = begin;
-    for (size_t c = 1; c < next.size(); ++c) next[c] += next[c - 1];
-    std::copy(next.begin(), next.end() - 1, map.cell_starts.begin() + grid.first_cell);
-    for (size_t i = 0; i < count; ++i) {
-        const Record& photon = photons[first[i]];
-        const uint slot = next[cells[i]]++;
-        map.places[slot] = places[i];
-        map.fluxes[slot] = photon.flux;
-        if (map.has_directions()) map.directions[slot] = photon.direction;
-    }
 }
 
 /// Brings the brightest photon to 2^12, so that RGB9E5 keeps 28 powers of two below it.
@@ -177,23 +93,49 @@ bool needs_directions(const Scene& scene) {
 
 namespace {
 
+/// References per photon that leave all arrays within most_bytes per photon, lattices and tables of the patches with
+/// photons included; within bounds of their own.
+double affordable_references(const Scene& scene, const Photons& photons, const Patches& patches,
+                             const std::vector<PatchShape>& shapes, const BakeSettings& settings) {
+    std::vector<char> is_lit(patches.count, 0);
+    bool caustics = false;
+    for (const Photon& p : photons.records) {
+        is_lit[patches.of_side[2 * p.triangle + p.side()]] = 1;
+        caustics |= p.path() == path_caustic;
+    }
+    const auto lamps = uint(scene.lights.size());
+    const double of_node =
+        4.0 * (1 + lamps + (settings.direct_in_photons ? 0 : visibility_words(lamps)));
+    double bytes = (caustics ? 16.0 : 8.0) * double(scene.triangles.size());
+    for (uint p = 0; p < patches.count; ++p)
+        if (is_lit[p])
+            bytes += sizeof(SurfaceGrid) + of_node * double(count_nodes(shapes[p], nodes_apart * settings.radius));
+    const double of_reference = (needs_directions(scene) ? 16 : 12) + 4 / references_per_cell;
+    const auto count = double(std::max<size_t>(photons.records.size(), 1));
+    return std::clamp((most_bytes - bytes / count) / of_reference, fewest_references, most_references);
+}
+
 /// The patches for one largest radius, and a radius for each: small patches get a smaller one until references per
 /// photon stay below the bound.
 struct Partition {
-    static constexpr float largest_floor = 0.5f;  // of the radius
+    static constexpr float largest_floor = 0.5f;   // of the radius
+    static constexpr float smallest_floor = 0.1f;  // below it the overhang is tightened too
 
     Partition(const Scene& scene, const Photons& photons, const BakeSettings& settings)
         : patches(group_triangles(scene, patch_size_in_radii * settings.radius)),
           shapes(shapes_of(scene, patches)),
           neighbours(shapes, patch_radii(shapes, settings.radius, largest_floor * settings.radius),
                      settings.neighbour_angle_deg, settings.radius) {
+        const double affordable = affordable_references(scene, photons, patches, shapes, settings);
         float floor = largest_floor * settings.radius;
-        for (int tries = 0; tries < 16; ++tries, floor *= 0.75f) {
-            radii = patch_radii(shapes, settings.radius, floor);
+        float overhang = widest_overhang;
+        for (int tries = 0; tries < 24; ++tries, floor *= 0.75f) {
+            radii = patch_radii(shapes, settings.radius, floor, overhang);
             if (sample_references(
                     {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours}, 20000) <
-                references_per_photon)
+                affordable)
                 break;
+            if (floor < smallest_floor * settings.radius) overhang *= 0.8f;
         }
     }
     Patches patches;
@@ -202,6 +144,20 @@ struct Partition {
     std::vector<float> radii;
 };
 
+/// Appends the cells of the grids from `first_grid` on: starts[i] are those of grid first_grid + i.
+void append_cells(const std::vector<std::vector<uint>>& starts, size_t first_grid, PhotonMap& map) {
+    if (!map.cell_starts.empty()) map.cell_starts.pop_back();  // the end of the last cell
+    uint64_t cells = map.cell_starts.size();
+    for (size_t i = 0; i < starts.size(); ++i) {
+        map.grids[first_grid + i].first_cell = uint(cells);
+        cells += starts[i].size();
+    }
+    if (cells >= no_map) throw Error("photon map: more than 2^32 cells; use fewer photons");
+    map.cell_starts.reserve(cells + 1);
+    for (const std::vector<uint>& part : starts) map.cell_starts.insert(map.cell_starts.end(), part.begin(), part.end());
+    map.cell_starts.push_back(uint(map.places.size()));
+}
+
 /// Appends the grids of a set of photons and which triangles they belong to; returns the patch of each grid.
 std::vector<uint> append_grids(const Scene& scene, const Partition& partition, const std::vector<Photon>& photons,
                                PhotonMap& map) {
@@ -209,52 +165,61 @@ std::vector<uint> append_grids(const Scene& scene, const Partition& partition, c
                                                    map.settings.neighbour_angle_deg, partition.neighbours});
     const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map);
     const size_t first_grid = map.grids.size(), first_place = map.places.size();
-    const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
-    const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
-
-    const bool directions = needs_directions(scene);
-    const std::vector<Record> records = pack_photons(photons, map.flux_scale, directions);
-    map.grids.resize(first_grid + kept.size());
-    parallel_for(kept.size(), [&](size_t m) {
-        map.grids[first_grid + m] = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
-        fit_grid(map.grids[first_grid + m], records, first(m), last(m));
-    });
-    uint64_t cells = map.cell_starts.empty() ? 0 : map.cell_starts.size() - 1;
-    for (size_t g = first_grid; g < map.grids.size(); ++g) {
-        map.grids[g].first_cell = uint(cells);
-        cells += uint64_t(map.grids[g].columns) * map.grids[g].rows;
-    }
-    if (cells >= no_map) throw Error("photon map: more than 2^32 cells; use fewer photons");
     const size_t end = first_place + references.photons.size();
-    map.cell_starts.resize(cells + 1);
-    map.cell_starts.back() = uint(end);
+    map.grids.resize(first_grid + kept.size());
     map.places.resize(end);
     map.fluxes.resize(end);
-    if (directions) map.directions.resize(end);
+    if (needs_directions(scene)) map.directions.resize(end);
+    std::vector<std::vector<uint>> starts(kept.size());
     parallel_for(kept.size(), [&](size_t m) {
-        fill_grid(map, uint(first_grid + m), records, first(m), last(m),
-                  uint(first_place + references.starts[kept[m]]));
+        SurfaceGrid& grid = map.grids[first_grid + m];
+        grid = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
+        const uint64_t first = references.starts[kept[m]], last = references.starts[kept[m] + 1];
+        starts[m] = fill_grid(grid, photons, {references.photons.data() + first, last - first}, uint(first_place + first),
+                              map);
     });
+    append_cells(starts, first_grid, map);
     return kept;
 }
 
-/// Lays the lattices and computes what their nodes keep; returns their points. All lengths follow the largest radius R: nodes every 0.5 R, a
-/// sample every 0.03 R2 (26 under a kernel of R/2).
-std::vector<NodePoint> add_lattices(const Scene& scene, const RayCaster& caster, const Partition& partition,
-                                    const std::vector<uint>& kept, PhotonMap& map) {
+/// The coverage of all nodes: in closed form where the ground is plane, from samples elsewhere, one every 0.03 R2 (26
+/// under a kernel of R/2).
+std::vector<uint> find_coverage(const Scene& scene, const RayCaster& caster, const Partition& partition,
+                                const std::vector<uint>& kept, const std::vector<NodePoint>& nodes,
+                                const PhotonMap& map) {
     const float radius = map.settings.radius;
-    std::vector<PatchShape> shapes;
-    for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
-    std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.5f * radius, map);
+    std::vector<CoverageLevels> coverage(nodes.size(), CoverageLevels{1, 1, 1, 1});
+    std::vector<std::vector<uint>> others(kept.size());
+    parallel_for(kept.size(), [&](size_t m) {
+        const uint first = map.grids[m].lattice.first_node;
+        find_flat_coverage(scene, caster, map, m, partition.shapes[kept[m]], &nodes[first], &coverage[first], others[m]);
+    });
+    Neighbourhoods wanted(1.01f * radius);
+    for (size_t m = 0; m < kept.size(); ++m) {
+        const SurfaceLattice& lattice = map.grids[m].lattice;
+        for (uint i : others[m])
+            wanted.add(point_on_lattice(map.grids[m], vec2(float(i % lattice.columns), float(i / lattice.columns)),
+                                        nodes[lattice.first_node + i].height));
+    }
     const std::vector<Photon> samples =
-        sample_surfaces(scene, caster, partition.patches, 0.03f * radius * radius, clearance_of(radius));
+        sample_surfaces(scene, caster, partition.patches, wanted, 0.03f * radius * radius, clearance_of(radius));
     const References references = find_references({scene, samples, partition.patches, partition.shapes, partition.radii,
                                                    map.settings.neighbour_angle_deg, partition.neighbours});
+    sample_coverage(map, nodes, samples, references, kept, others, coverage);
+    return pack_coverage(coverage);
+}
+
+/// Lays the lattices, nodes every half of the largest radius, and computes what their nodes keep; returns their points.
+std::vector<NodePoint> add_lattices(const Scene& scene, const RayCaster& caster, const Partition& partition,
+                                    const std::vector<uint>& kept, PhotonMap& map) {
+    std::vector<PatchShape> shapes;
+    for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
+    std::vector<NodePoint> nodes = lay_lattices(scene, shapes, nodes_apart * map.settings.radius, map);
     if (!map.settings.direct_in_photons) {
         map.visible_lamps = find_visibility(scene, caster, map, nodes);
         map.shadow_masks = find_shadow_masks(scene, caster, map);
     }
-    map.coverage = find_coverage(scene, map, nodes, samples, references, kept);
+    map.coverage = find_coverage(scene, caster, partition, kept, nodes, map);
     map.irradiance = find_irradiance(scene, caster, map, nodes, map.irradiance_scale);
     return nodes;
 }

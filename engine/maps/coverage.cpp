@@ -13,16 +13,15 @@ namespace {
 
 constexpr int rays_around = 4;
 constexpr double samples_of_patch = 64;
-using Levels = std::array<float, coverage_levels>;
 
 /// The samples that belong to one map, sorted into square cells of half the radius in the frame of its grid.
 class MapSamples {
   public:
     MapSamples(const SurfaceGrid& grid, const std::vector<Photon>& samples, const uint* first, const uint* last)
         : cell_(grid.radius * 0.5f), radius_(grid.radius) {
+        const CoverageLevels radii = radii_of_levels(grid);
         for (uint level = 0; level < coverage_levels; ++level) {
-            const float r = radius_ * float(level + 1) / float(coverage_levels);
-            radii2_[level] = r * r;
+            radii2_[level] = radii[level] * radii[level];
             peaks_[level] = 2 / (lw_pi * radii2_[level]);
         }
         vec2 high(-1e30f);
@@ -46,8 +45,8 @@ class MapSamples {
     }
 
     /// Sum of area x kernel at `local`, for the kernels of all levels.
-    Levels sum_kernels(vec3 local, float max_radius) const {
-        Levels sums{};
+    CoverageLevels sum_kernels(vec3 local, float max_radius) const {
+        CoverageLevels sums{};
         const int x0 = std::max(column(local.x - radius_), 0), x1 = std::min(column(local.x + radius_), columns_ - 1);
         const int y0 = std::max(row(local.y - radius_), 0), y1 = std::min(row(local.y + radius_), rows_ - 1);
         for (int y = y0; y <= y1 && x0 <= x1; ++y) {
@@ -65,7 +64,7 @@ class MapSamples {
         return size_t(std::min(row(s.y), rows_ - 1)) * size_t(columns_) + size_t(std::min(column(s.x), columns_ - 1));
     }
 
-    void add_kernels(const vec4& sample, vec3 local, float max_radius, Levels& sums) const {
+    void add_kernels(const vec4& sample, vec3 local, float max_radius, CoverageLevels& sums) const {
         const vec3 d = vec3(sample) - local;
         const float d2 = dot(d, d);
         if (d2 >= radius_ * radius_ || !on_same_surface(d.z, d2, max_radius)) return;
@@ -74,7 +73,7 @@ class MapSamples {
     }
 
     float cell_, radius_;
-    Levels radii2_{}, peaks_{};  // m2 of each kernel, and its value at the centre
+    CoverageLevels radii2_{}, peaks_{};  // m2 of each kernel, and its value at the centre
     vec2 low_{0};
     int columns_ = 0, rows_ = 0;
     std::vector<uint> starts_;
@@ -108,7 +107,7 @@ bool is_overlaid(const RayCaster& caster, vec3 point, vec3 normal, uint triangle
     return hit && hit->triangle != triangle;
 }
 
-uint pack_coverage(const Levels& levels) {
+uint pack_levels(const CoverageLevels& levels) {
     uint bits = 0;
     for (uint i = 0; i < coverage_levels; ++i)
         bits |= uint(clamp(std::round(levels[i] * coverage_unit), 0.0f, 255.0f)) << (8 * i);
@@ -128,8 +127,28 @@ bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance
     return true;
 }
 
-std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const Patches& patches, float area,
-                                    float clearance) {
+uint64_t Neighbourhoods::bit_of(vec3 cell) const {
+    const uint64_t x = uint64_t(uint32_t(int(cell.x))), y = uint64_t(uint32_t(int(cell.y))), z = uint64_t(int(cell.z));
+    return mix64((x << 32 | y) ^ z * 0x9e3779b97f4a7c15ull) % bit_count;
+}
+
+void Neighbourhoods::add(vec3 point) {
+    const vec3 low = floor(point / radius_) - 1.0f, high = floor(point / radius_) + 1.0f;  // cells as wide as the radius
+    for (float z = low.z; z <= high.z; ++z)
+        for (float y = low.y; y <= high.y; ++y)
+            for (float x = low.x; x <= high.x; ++x) {
+                const uint64_t bit = bit_of({x, y, z});
+                bits_[bit / 64] |= 1ull << bit % 64;
+            }
+}
+
+bool Neighbourhoods::contain(vec3 point) const {
+    const uint64_t bit = bit_of(floor(point / radius_));
+    return bits_[bit / 64] >> bit % 64 & 1;
+}
+
+std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const Patches& patches,
+                                    const Neighbourhoods& wanted, float area, float clearance) {
     constexpr size_t chunk = 1024;
     const std::vector<float> shares = areas_of_samples(scene, patches, area);
     std::vector<uint> counts(scene.triangles.size());
@@ -149,7 +168,9 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
             for (uint i = 0; i < counts[t]; ++i) {
                 const vec2 place = sample_triangle(sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
                 const vec3 position = (1 - place.x - place.y) * p0 + place.x * p1 + place.y * p2;
-                if (is_overlaid(caster, position, normalize(product), uint(t))) continue;
+                if (!wanted.contain(position) ||
+                    is_overlaid(caster, position, normalize(product), uint(t)))
+                    continue;
                 for (uint side = 0; side < 2; ++side) {
                     const vec3 n = product / (side ? -length(product) : length(product));
                     Rng rng(1, 2 * t + side, i);
@@ -164,27 +185,29 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
     return samples;
 }
 
-std::vector<uint> find_coverage(const Scene& scene, const PhotonMap& map, const std::vector<NodePoint>& nodes,
-                                const std::vector<Photon>& samples, const References& references,
-                                const std::vector<uint>& patch_of_map) {
-    std::vector<uint> coverage(nodes.size(), pack_coverage({1, 1, 1, 1}));
-    const SurfaceReader surfaces(scene);
-    parallel_for(map.grids.size(), [&](size_t m) {
+void sample_coverage(const PhotonMap& map, const std::vector<NodePoint>& nodes, const std::vector<Photon>& samples,
+                     const References& references, const std::vector<uint>& patch_of_map,
+                     const std::vector<std::vector<uint>>& nodes_of_map, std::vector<CoverageLevels>& coverage) {
+    parallel_for(nodes_of_map.size(), [&](size_t m) {
+        if (nodes_of_map[m].empty()) return;
         const SurfaceGrid& grid = map.grids[m];
         const SurfaceLattice& lattice = grid.lattice;
         const uint* all = references.photons.data();
         const MapSamples own(grid, samples, all + references.starts[patch_of_map[m]],
                              all + references.starts[patch_of_map[m] + 1]);
-        for (uint n = 0; n < lattice.columns * lattice.rows; ++n) {
-            const NodePoint& node = nodes[lattice.first_node + n];
-            if (!node.exists()) continue;
-            const vec3 offset = surfaces.surface_at(node.triangle, node.barycentrics).position - grid.origin;
+        for (uint n : nodes_of_map[m]) {
             const vec2 at = lattice.low + vec2(float(n % lattice.columns), float(n / lattice.columns)) * lattice.step;
-            coverage[lattice.first_node + n] =
-                pack_coverage(own.sum_kernels(vec3(at, dot(offset, grid.normal)), map.settings.radius));
+            const uint node = lattice.first_node + n;
+            coverage[node] = own.sum_kernels(vec3(at, nodes[node].height), map.settings.radius);
         }
     });
-    return coverage;
+}
+
+std::vector<uint> pack_coverage(const std::vector<CoverageLevels>& coverage) {
+    std::vector<uint> packed;
+    packed.reserve(coverage.size());
+    for (const CoverageLevels& levels : coverage) packed.push_back(pack_levels(levels));
+    return packed;
 }
 
 }  // namespace lw

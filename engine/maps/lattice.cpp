@@ -27,13 +27,17 @@ struct SidesOfMaps {
     std::vector<uint> starts, sides;
 };
 
+/// Nodes along an edge of `size` m.
+uint nodes_along(float size, float spacing) {
+    return uint(clamp(std::ceil(size / spacing), 1.0f, most_nodes_across)) + 1;
+}
+
 SurfaceLattice fit_lattice(const PatchShape& shape, const SurfaceGrid& grid, float spacing) {
     SurfaceLattice lattice{};
     const vec3 offset = shape.anchor - grid.origin, extent = shape.high - shape.low;
     lattice.low = vec2(dot(offset, grid.u_axis) + shape.low.x, dot(offset, grid.v_axis) + shape.low.y);
-    const auto count = [&](float size) { return uint(clamp(std::ceil(size / spacing), 1.0f, most_nodes_across)) + 1; };
-    lattice.columns = count(extent.x);
-    lattice.rows = count(extent.y);
+    lattice.columns = nodes_along(extent.x, spacing);
+    lattice.rows = nodes_along(extent.y, spacing);
     lattice.step = max(vec2(extent.x, extent.y) / vec2(float(lattice.columns - 1), float(lattice.rows - 1)),
                        vec2(1e-4f * spacing));
     return lattice;
@@ -60,6 +64,7 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
                x1 = node(std::ceil(high.x / lattice.step.x), lattice.columns),
                y0 = node(std::floor(low.y / lattice.step.y), lattice.rows),
                y1 = node(std::ceil(high.y / lattice.step.y), lattice.rows);
+    const float farthest2 = 1.01f * dot(lattice.step, lattice.step);  // the diagonal of a cell
     for (uint y = y0; y <= y1; ++y)
         for (uint x = x0; x <= x1; ++x) {
             NodePoint& point = nodes[lattice.first_node + y * lattice.columns + x];
@@ -67,6 +72,7 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
             vec2 nearest;
             const vec2 weights = nearest_barycentrics(corners[0] - at, corners[1] - at, corners[2] - at, nearest);
             const float squared = dot(nearest, nearest);
+            if (squared > farthest2) continue;
             const float distance2 =
                 squared < 1e-6f * dot(lattice.step, lattice.step) ? 0 : squared;  // over the surface
             const float height =
@@ -77,6 +83,10 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
 }
 
 }  // namespace
+
+uint64_t count_nodes(const PatchShape& shape, float spacing) {
+    return uint64_t(nodes_along(shape.high.x - shape.low.x, spacing)) * nodes_along(shape.high.y - shape.low.y, spacing);
+}
 
 std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchShape>& shapes, float spacing,
                                     PhotonMap& map) {

@@ -102,12 +102,12 @@ std::vector<Task> find_maps(const ReferenceInput& input) {
 
 }  // namespace
 
-std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float largest, float floor) {
+std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float largest, float floor, float overhang) {
     std::vector<float> radii;
     for (const PatchShape& shape : shapes) {
         const vec3 size = shape.high - shape.low;
         const float perimeter = 2 * (size.x + size.y), area = size.x * size.y;
-        const float bound = (-perimeter + std::sqrt(perimeter * perimeter + 4 * 1.1f * lw_pi * area)) / (2 * lw_pi);
+        const float bound = (-perimeter + std::sqrt(perimeter * perimeter + 4 * overhang * lw_pi * area)) / (2 * lw_pi);
         radii.push_back(clamp(bound, std::min(floor, largest), largest));
     }
     return radii;

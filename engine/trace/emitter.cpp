@@ -31,12 +31,69 @@ float sample_spot_cosine(const Light& light, float u) {
     return light.cos_outer + t * (light.cos_inner - light.cos_outer);
 }
 
+constexpr uint most_even_triangles = 8;  // beyond, sixteen samples cost less than the closed form
+
+/// The part of triangle `corners` above the plane through the origin with unit `normal`: up to four corners.
+uint clip_to_horizon(const std::array<vec3, 3>& corners, vec3 normal, std::array<vec3, 4>& kept) {
+    uint count = 0;
+    for (size_t i = 0; i < 3; ++i) {
+        const vec3 a = corners[i], b = corners[(i + 1) % 3];
+        const float above_a = dot(a, normal), above_b = dot(b, normal);
+        if (above_a > 0) kept[count++] = a;
+        if ((above_a > 0) != (above_b > 0)) kept[count++] = a + (b - a) * (above_a / (above_a - above_b));
+    }
+    return count;
+}
+
+/// Integral of the cosine over the solid angle of a polygon above the horizon: half the sum, over its edges, of the angle
+/// they span times the cosine of the normal of their plane. Its sign follows the order of the corners.
+float cosine_integral(const std::array<vec3, 4>& corners, uint count, vec3 normal) {
+    float sum = 0;
+    for (uint i = 0; i < count; ++i) {
+        const vec3 a = corners[i], b = corners[(i + 1) % count];
+        const vec3 product = cross(a, b);
+        const float sine = length(product);
+        if (sine > 0) sum += std::atan2(sine, dot(a, b)) * dot(product, normal) / sine;
+    }
+    return 0.5f * sum;
+}
+
 }  // namespace
 
 Emitters::Emitters(const Scene& scene) : scene_(scene), surfaces_(scene) {
     centre_ = 0.5f * (scene.bounds[0] + scene.bounds[1]);
     radius_ = 0.5f * length(scene.bounds[1] - scene.bounds[0]) * 1.001f;
     for (const Light& light : scene.lights) beams_.push_back(light.type == light_profile ? beam_of(light) : Beam{});
+    for (const Light& light : scene.lights) even_radiance_.push_back(even_radiance_of(light));
+}
+
+vec3 Emitters::even_radiance_of(const Light& light) const {
+    constexpr vec3 uneven(-1);
+    if (light.type != light_mesh || light.emitter_count > most_even_triangles) return uneven;
+    const Material& first = scene_.material_of(scene_.emitters[light.first_emitter].triangle);
+    for (uint i = 0; i < light.emitter_count; ++i) {
+        const Material& m = scene_.material_of(scene_.emitters[light.first_emitter + i].triangle);
+        const bool holes = (m.flags & (material_alpha_mask | material_alpha_blend)) != 0;
+        if (&m != &first || m.emissive_texture.texture >= 0 || holes) return uneven;
+    }
+    return per_intensity(first.emissive, light.intensity);
+}
+
+vec3 Emitters::even_irradiance(uint index, vec3 point, vec3 normal) const {
+    const Light& light = scene_.lights[index];
+    const bool both_sides = scene_.material_of(scene_.emitters[light.first_emitter].triangle).flags & material_double_sided;
+    float sum = 0;
+    for (uint i = 0; i < light.emitter_count; ++i) {
+        const uvec3 c = scene_.triangles[scene_.emitters[light.first_emitter + i].triangle];
+        const std::array<vec3, 3> corners{scene_.positions[c.x] - point, scene_.positions[c.y] - point,
+                                          scene_.positions[c.z] - point};
+        const float behind = dot(cross(corners[1] - corners[0], corners[2] - corners[0]), corners[0]);
+        if (behind >= 0 && !both_sides) continue;
+        std::array<vec3, 4> above;
+        const uint count = clip_to_horizon(corners, normal, above);
+        sum += std::abs(cosine_integral(above, count, normal));
+    }
+    return even_radiance_[index] * sum;
 }
 
 Emitters::Beam Emitters::beam_of(const Light& light) const {

@@ -47,6 +47,12 @@ class Emitters {
     /// Solid-angle pdf with which arrive() picks the point of a mesh lamp at this distance and direction.
     float arrive_pdf(const Surface& s, float distance, vec3 to_light) const;
 
+    /// True for a mesh of few triangles that shines alike all over: its light has a closed form.
+    bool is_even(uint light) const { return even_radiance_[light].x >= 0; }
+    /// Irradiance at `point` on a plane facing unit `normal` from all of a lamp that is_even(), unoccluded, per unit
+    /// intensity: the vector irradiance of its triangles above the plane (Lambert 1760; Arvo 1995, equation 3.5).
+    vec3 even_irradiance(uint light, vec3 point, vec3 normal) const;
+
   private:
     /// Cells of a light distribution, picked in proportion to their flux; their last sum is the lamp's, lm per cd.
     struct Beam {
@@ -62,6 +68,9 @@ class Emitters {
     /// The point at (u, v) of a mesh lamp, uniform by area.
     Surface point_of(const Light& light, float u, float v) const;
     float area_of(const Light& light) const;  // one side, m2
+
+    vec3 even_radiance_of(const Light& light) const;
+    std::vector<vec3> even_radiance_;  // per lamp, per unit intensity; negative where is_even() is not true
 
     vec3 centre_;
     float radius_;  // of the sphere around the scene

@@ -47,6 +47,30 @@ bool occluded(RTCScene scene, RTCRay& ray) {
     return ray.tfar < 0;
 }
 
+/// What a point query collects: triangles of leaves near the point, of which some are far.
+struct Collected {
+    const Scene& scene;
+    vec3 point;
+    float radius;
+    size_t most;
+    std::vector<uint>& found;
+    bool complete = true;
+};
+
+bool collect(RTCPointQueryFunctionArguments* arguments) {
+    auto& collected = *static_cast<Collected*>(arguments->userPtr);
+    const uvec3 c = collected.scene.triangles[arguments->primID];
+    const std::vector<vec3>& at = collected.scene.positions;
+    const vec3 path = closest_point_on_triangle(collected.point, at[c.x], at[c.y], at[c.z]) - collected.point;
+    if (dot(path, path) > collected.radius * collected.radius) return false;
+    collected.complete = collected.found.size() < collected.most;
+    if (collected.complete)
+        collected.found.push_back(arguments->primID);
+    else
+        arguments->query->radius = 0;  // ends the query
+    return !collected.complete;
+}
+
 }  // namespace
 
 RayCaster::RayCaster(const Scene& scene) : scene_(scene), surfaces_(scene) {
@@ -150,6 +174,18 @@ vec3 RayCaster::transmittance(vec3 from, vec3 to) const {
         if (passed >= far) return passed_fraction;
     }
     return vec3(0);
+}
+
+bool RayCaster::triangles_around(vec3 point, float radius, size_t most, std::vector<uint>& found) const {
+    found.clear();
+    Collected collected{scene_, point, radius, most, found};
+    RTCPointQuery query{};
+    query.x = point.x, query.y = point.y, query.z = point.z;
+    query.radius = radius;
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(as_scene(embree_scene_), &query, &context, collect, &collected);
+    return collected.complete;
 }
 
 vec3 closest_point_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {

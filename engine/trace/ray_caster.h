@@ -1,6 +1,7 @@
 // Nearest hit and visibility against the triangles of a Scene; with build_bvh the only user of Embree.
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "base/random.h"
 #include "scene/scene.h"
@@ -33,6 +34,10 @@ class RayCaster {
     /// Fraction of light (per RGB) that passes between two points, by the rule of passed_by() in shaders/bsdf.glsl: 0
     /// when blocked, the tint of thin smooth glass, 1 - alpha of blends.
     vec3 transmittance(vec3 from, vec3 to) const;
+
+    /// Writes to `found` every triangle within `radius` m of a point. Returns false when there are more than `most`; then
+    /// some are missing.
+    bool triangles_around(vec3 point, float radius, size_t most, std::vector<uint>& found) const;
 
     /// `point` moved off its surface along `normal` by a few units of float precision of the scene.
     vec3 offset(vec3 point, vec3 normal) const { return point + normal * epsilon_; }

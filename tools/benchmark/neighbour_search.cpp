@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -34,6 +35,12 @@ namespace {
 
 constexpr size_t points_per_leaf = 10;
 constexpr uint64_t no_key = ~0ull;
+constexpr int first_ring = 2;       // 25 cells, which hold about 60 photons
+constexpr float surplus = 1.35f;    // photons looked at per photon wanted, so that few searches are repeated
+
+using Floats = float __attribute__((vector_size(16)));
+using Words = int __attribute__((vector_size(16)));
+Floats to_floats(Words w) { return __builtin_convertvector(w, Floats); }
 
 vec3 to_local(const SurfaceGrid& grid, vec3 position) {
     const vec3 offset = position - grid.origin;
@@ -117,49 +124,109 @@ void NearestPhotons::add(float distance_squared, uint index) {
     if (full()) bound_ = entries_.front().distance_squared;
 }
 
-struct MapGridSearch::Local {
-    const SurfaceGrid& grid;
-    vec3 point;
-};
+void NearestPhotons::select(size_t found_count) {
+    Entry* found = candidates_.data();
+    const size_t count = std::min<size_t>(k_, found_count);
+    if (count == 0) return;
+    std::nth_element(found, found + count - 1, found + found_count);
+    std::swap(found[0], found[count - 1]);
+    entries_.assign(found, found + count);
+    if (full()) bound_ = entries_.front().distance_squared;
+}
 
 vec3 MapGridSearch::position(const Query& query, uint index) const {
     const SurfaceGrid& grid = map_.grids[query.map];
     return to_world(grid, place_in_grid(map_.places[index], grid));
 }
 
-/// Cells [x0, x1] of row y, clipped to the grid.
-void MapGridSearch::visit(const Local& local, int x0, int x1, int y, NearestPhotons& nearest) const {
-    const SurfaceGrid& grid = local.grid;
-    if (y < 0 || y >= int(grid.rows) || x1 < 0 || x0 >= int(grid.columns)) return;
-    const uint row = grid.first_cell + uint(y) * grid.columns;
-    const uint last = map_.cell_starts[row + uint(std::min(x1, int(grid.columns) - 1)) + 1];
-    for (uint i = map_.cell_starts[row + uint(std::max(x0, 0))]; i < last; ++i) {
-        const vec3 d = place_in_grid(map_.places[i], grid) - local.point;
-        const float d2 = dot(d, d);
-        if (d2 < nearest.bound() && on_same_surface(d.z, d2, map_.settings.radius)) nearest.add(d2, i);
+/// The radius within which somewhat more than the wanted photons lie, from the counts of a growing window of cells.
+float MapGridSearch::expected_radius(const SurfaceGrid& grid, vec3 local, uint wanted) const {
+    const int columns = int(grid.columns), rows = int(grid.rows);
+    const ivec2 cell = clamp(ivec2(floor(vec2(local) / grid.cell_size)), ivec2(0), ivec2(columns - 1, rows - 1));
+    for (int ring = first_ring;; ++ring) {
+        const int x0 = std::max(cell.x - ring, 0), x1 = std::min(cell.x + ring, columns - 1);
+        const int y0 = std::max(cell.y - ring, 0), y1 = std::min(cell.y + ring, rows - 1);
+        uint count = 0;
+        for (int y = y0; y <= y1; ++y) {
+            const uint* row = map_.cell_starts.data() + grid.first_cell + size_t(y) * grid.columns;
+            count += row[x1 + 1] - row[x0];
+        }
+        const bool whole = x0 == 0 && y0 == 0 && x1 == columns - 1 && y1 == rows - 1;
+        if (count < wanted && !whole) continue;
+        const float area = float((x1 - x0 + 1) * (y1 - y0 + 1)) * grid.cell_size * grid.cell_size;
+        return std::sqrt(surplus * float(wanted) * area / (lw_pi * float(std::max(count, 1u))));
     }
 }
 
-/// Rings of cells outwards until the ring's border is farther than the k-th photon.
+struct MapGridSearch::Disc {
+    const SurfaceGrid& grid;
+    vec3 local;
+    float radius;
+};
+
+/// Writes all photons within the radius, row of cells after row, and returns their number.
+size_t MapGridSearch::collect(const Disc& disc, NearestPhotons& nearest) const {
+    const auto& [grid, local, radius] = disc;
+    const float r2 = radius * radius, size = grid.cell_size;
+    size_t count = 0;
+    const auto cell = [size](float v, uint count) { return int(clamp(std::floor(v / size), -1.0f, float(count))); };
+    const int y1 = std::min(cell(local.y + radius, grid.rows), int(grid.rows) - 1);
+    for (int y = std::max(cell(local.y - radius, grid.rows), 0); y <= y1; ++y) {
+        const float below = float(y) * size - local.y, dy = std::max({below, -below - size, 0.0f});
+        const float half_width = std::sqrt(std::max(r2 - dy * dy, 0.0f));
+        const int x0 = std::max(cell(local.x - half_width, grid.columns), 0);
+        const int x1 = std::min(cell(local.x + half_width, grid.columns), int(grid.columns) - 1);
+        const uint* row = map_.cell_starts.data() + grid.first_cell + size_t(y) * grid.columns;
+        if (x0 > x1) continue;
+        NearestPhotons::Entry* found = nearest.candidates(count + row[x1 + 1] - row[x0] + 1).data();
+        count = size_t(collect_run(disc, row[x0], row[x1 + 1], found + count) - found);
+    }
+    return count;
+}
+
+/// Four photons at a time, then the rest.
+NearestPhotons::Entry* MapGridSearch::collect_run(const Disc& disc, uint first, uint last,
+                                                  NearestPhotons::Entry* found) const {
+    const auto& [grid, local, radius] = disc;
+    const float radius_squared = radius * radius;
+    const float tolerance = 0.01f * map_.settings.radius;  // of on_same_surface(), written out for vectors
+    uint i = first;
+    for (; i + 4 <= last; i += 4) {
+        Words low, high;  // u and v of a photon, its height and lamp, then the next one's
+        std::memcpy(&low, &map_.places[i], sizeof low);
+        std::memcpy(&high, &map_.places[i + 2], sizeof high);
+        const Words uv = __builtin_shufflevector(low, high, 0, 2, 4, 6), h = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+        const Floats du = to_floats(uv & 0xffff) * grid.quantum.x - local.x,
+                     dv = to_floats(uv >> 16 & 0xffff) * grid.quantum.y - local.y,
+                     dh = to_floats(h & 0xffff) * grid.quantum.z + (grid.h_origin - local.z);
+        const Floats d2 = du * du + dv * dv + dh * dh, height = (dh < 0 ? -dh : dh) - tolerance;
+        const Words kept = (d2 < radius_squared) & ((height <= 0) | (height * height <= 0.75f * d2));
+        for (uint lane = 0; lane < 4; ++lane) {
+            *found = {d2[lane], i + lane};
+            found -= kept[lane];  // -1 where true
+        }
+    }
+    for (; i < last; ++i) {
+        const vec3 d = place_in_grid(map_.places[i], grid) - local;
+        const float d2 = dot(d, d);
+        *found = {d2, i};
+        found += (d2 < radius_squared) & on_same_surface(d.z, d2, map_.settings.radius);
+    }
+    return found;
+}
+
+/// Looks as far as the cells say, farther if that was not far enough, and selects.
 void MapGridSearch::find(const Query& query, NearestPhotons& nearest) const {
     const SurfaceGrid& grid = map_.grids[query.map];
-    const Local local{grid, to_local(grid, query.position)};
-    const ivec2 cell(floor(vec2(local.point) / grid.cell_size));
-    const int farthest = int(grid.columns + grid.rows);
-    for (int ring = 0; ring <= farthest + std::max(std::abs(cell.x), std::abs(cell.y)); ++ring) {
-        const int x0 = cell.x - ring, x1 = cell.x + ring, y0 = cell.y - ring, y1 = cell.y + ring;
-        visit(local, x0, x1, y0, nearest);
-        if (ring > 0) visit(local, x0, x1, y1, nearest);
-        for (int y = y0 + 1; y < y1; ++y) {
-            visit(local, x0, x0, y, nearest);
-            visit(local, x1, x1, y, nearest);
-        }
-        const vec2 low = vec2(local.point) - vec2(float(x0), float(y0)) * grid.cell_size;
-        const vec2 high = vec2(float(x1 + 1), float(y1 + 1)) * grid.cell_size - vec2(local.point);
-        const float reached = std::max(0.0f, std::min({low.x, low.y, high.x, high.y}));
-        const bool whole = x0 <= 0 && y0 <= 0 && x1 >= int(grid.columns) - 1 && y1 >= int(grid.rows) - 1;
-        if (reached * reached >= nearest.bound() || whole) return;
+    const vec3 local = to_local(grid, query.position);
+    const float farthest = std::sqrt(nearest.bound());
+    Disc disc{grid, local, std::min(expected_radius(grid, local, nearest.wanted()), farthest)};
+    size_t count = collect(disc, nearest);
+    while (count < nearest.wanted() && disc.radius < farthest) {
+        disc.radius = std::min(1.3f * disc.radius, farthest);
+        count = collect(disc, nearest);
     }
+    nearest.select(count);
 }
 
 MapTreeSearch::MapTreeSearch(const PhotonMap& map)

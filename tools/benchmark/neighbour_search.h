@@ -1,6 +1,7 @@
 // Exact k nearest photons by four structures, for Figure 6 and Table 1: the 2D grid of our maps, a 2D kd-tree per map,
-// a global 3D kd-tree and a 3D hash grid. All use the same bounded max-heap and the same rules: side and orientation
-// (60 degrees, by the maps' references or by a test), height above the surface, the radius of the map.
+// a global 3D kd-tree and a 3D hash grid. All use the same rules: side and orientation (60 degrees, by the maps'
+// references or by a test), height above the surface, the radius of the map. Trees and hash grid keep a bounded max-heap,
+// without which they could not end early; the 2D grid knows from its cells how far to look, and selects once.
 // kd-trees are nanoflann's (Blanco & Rai 2014).
 #pragma once
 #include <memory>
@@ -28,17 +29,25 @@ class NearestPhotons {
         bool operator<(const Entry& other) const { return distance_squared < other.distance_squared; }
     };
     void start(uint k, float radius_squared);
+    uint wanted() const { return k_; }
     /// The squared distance below which a photon is still wanted.
     float bound() const { return bound_; }
     void add(float distance_squared, uint index);
+    /// Another way than add(): the candidates of a search, written at once, of which select() takes the nearest of the
+    /// first `count`. Keeps what was written when it grows to hold `size`.
+    std::vector<Entry>& candidates(size_t size) {
+        if (candidates_.size() < size) candidates_.resize(2 * size);
+        return candidates_;
+    }
+    void select(size_t count);
     bool full() const { return entries_.size() == k_; }
-    /// A max-heap: the farthest first.
+    /// The farthest first.
     const std::vector<Entry>& entries() const { return entries_; }
 
   private:
     uint k_ = 0;
     float bound_ = 0;
-    std::vector<Entry> entries_;
+    std::vector<Entry> entries_, candidates_;
 };
 
 /// The 2D grid of each map, searched on the arrays that the file and the GPU hold.
@@ -49,8 +58,11 @@ class MapGridSearch {
     vec3 position(const Query& query, uint index) const;
 
   private:
-    struct Local;
-    void visit(const Local& local, int x0, int x1, int y, NearestPhotons& nearest) const;
+    float expected_radius(const SurfaceGrid& grid, vec3 local, uint wanted) const;
+    struct Disc;
+    size_t collect(const Disc& disc, NearestPhotons& nearest) const;
+    NearestPhotons::Entry* collect_run(const Disc& disc, uint first, uint last, NearestPhotons::Entry* found) const;
+
     const PhotonMap& map_;
 };
 

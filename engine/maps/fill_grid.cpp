@@ -1,0 +1,95 @@
+#include "maps/fill_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "maps/packing.h"
+
+namespace lw {
+namespace {
+
+/// What a map keeps of a photon.
+struct Record {
+    vec3 local;  // u, v, h from the anchor of the patch, m
+    uint origin, flux, direction;
+};
+
+struct Bounds {
+    vec3 low{1e30f}, high{-1e30f};
+};
+
+std::vector<Record> bring_into_frame(const SurfaceGrid& grid, const std::vector<Photon>& photons,
+                                     std::span<const uint> chosen, const PhotonMap& map, Bounds& bounds) {
+    std::vector<Record> records;
+    records.reserve(chosen.size());
+    for (uint i : chosen) {
+        const Photon& p = photons[i];
+        const vec3 offset = p.position - grid.origin;
+        const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+        bounds.low = min(bounds.low, local), bounds.high = max(bounds.high, local);
+        records.push_back({local, p.origin & 0xffffu, pack_rgb9e5(p.flux * map.flux_scale),
+                           map.has_directions() ? pack_direction(p.from) : 0});
+    }
+    return records;
+}
+
+/// Moves the origin to the corner of the photons' bounds and sets quantum and cells for `count` references.
+void fit_grid(SurfaceGrid& grid, const Bounds& bounds, size_t count) {
+    const vec3 reach = max(abs(grid.origin), vec3(1e-20f));
+    const float floor_size = 1e-6f * std::max({reach.x, reach.y, reach.z});
+    const vec3 extent = max((bounds.high - bounds.low) * 1.0001f, vec3(floor_size));
+    grid.origin += grid.u_axis * bounds.low.x + grid.v_axis * bounds.low.y;
+    grid.h_origin = bounds.low.z;
+    grid.quantum = extent / 65535.0f;
+    const double cells = std::max(1.0, double(count) / references_per_cell);
+    double cell = std::sqrt(double(extent.x) * double(extent.y) / cells);
+    // Few or coincident photons: no cells so small that a search over the radius visits thousands.
+    cell = std::max({cell, double(extent.x) / cells, double(extent.y) / cells, double(grid.radius) / 256});
+    grid.cell_size = float(cell);
+    grid.columns = uint(std::max(1.0, std::ceil(double(extent.x) / double(grid.cell_size))));
+    grid.rows = uint(std::max(1.0, std::ceil(double(extent.y) / double(grid.cell_size))));
+}
+
+/// `local` is relative to the corner of the grid.
+PhotonPlace place_of(vec3 local, uint origin, const SurfaceGrid& grid) {
+    const auto step = [](float v, float quantum) {  // rounded to nearest
+        return uint(std::min(std::max(v / quantum, 0.0f), 65535.0f) + 0.5f);
+    };
+    return {step(local.x, grid.quantum.x) | step(local.y, grid.quantum.y) << 16,
+            step(local.z, grid.quantum.z) | origin << 16};
+}
+
+uint cell_of(PhotonPlace place, const SurfaceGrid& grid) {
+    const vec3 local = place_in_grid(place, grid);
+    const uint x = std::min(uint(local.x / grid.cell_size), grid.columns - 1);
+    const uint y = std::min(uint(local.y / grid.cell_size), grid.rows - 1);
+    return y * grid.columns + x;
+}
+
+}  // namespace
+
+std::vector<uint> fill_grid(SurfaceGrid& grid, const std::vector<Photon>& photons, std::span<const uint> chosen,
+                            uint begin, PhotonMap& map) {
+    Bounds bounds;
+    const std::vector<Record> records = bring_into_frame(grid, photons, chosen, map, bounds);
+    fit_grid(grid, bounds, records.size());
+    std::vector<PhotonPlace> places(records.size());
+    std::vector<uint> cells(records.size()), next(size_t(grid.columns) * grid.rows, 0);
+    for (size_t i = 0; i < records.size(); ++i) {
+        places[i] = place_of(records[i].local - bounds.low, records[i].origin, grid);
+        cells[i] = cell_of(places[i], grid);
+        ++next[cells[i]];
+    }
+    for (uint& start : next) begin += std::exchange(start, begin);
+    const std::vector<uint> starts = next;
+    for (size_t i = 0; i < records.size(); ++i) {
+        const uint slot = next[cells[i]]++;
+        map.places[slot] = places[i];
+        map.fluxes[slot] = records[i].flux;
+        if (map.has_directions()) map.directions[slot] = records[i].direction;
+    }
+    return starts;
+}
+
+}  // namespace lw

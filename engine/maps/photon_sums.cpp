@@ -1,0 +1,82 @@
+#include "maps/photon_sums.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace lw {
+namespace {
+
+/// Four floats in a register: vectors of GCC and Clang, plain x86-64 has the instructions.
+using Floats = float __attribute__((vector_size(16)));
+constexpr size_t lanes = 4;
+constexpr size_t run_length = 128;  // photons weighed at once
+
+Floats load(const float* values) {
+    Floats loaded;
+    std::memcpy(&loaded, values, sizeof loaded);
+    return loaded;
+}
+
+Floats positive(Floats x) { return x > 0 ? x : Floats{}; }
+
+int cell_at(float metres, float cell_size, uint count) {
+    return int(clamp(std::floor(metres / cell_size), -1.0f, float(count)));
+}
+
+}  // namespace
+
+PhotonSums::PhotonSums(const PhotonMap& map, const SurfaceGrid& grid)
+    : grid_(grid),
+      starts_(map.cell_starts.data() + grid.first_cell),
+      first_(starts_[0]),
+      max_radius_(map.settings.radius) {
+    const size_t count = starts_[grid.columns * grid.rows] - first_;
+    for (std::vector<float>* places : {&u_, &v_, &h_}) places->resize(count + lanes);  // whole registers are read
+    fluxes_.resize(count);
+    lamps_.resize(count);
+    for (size_t i = 0; i < count; ++i) {
+        const PhotonPlace place = map.places[first_ + i];
+        const vec3 local = place_in_grid(place, grid);
+        u_[i] = local.x, v_[i] = local.y, h_[i] = local.z;
+        fluxes_[i] = vec4(unpack_rgb9e5(map.fluxes[first_ + i]), 0);
+        lamps_[i] = light_of(place);
+    }
+}
+
+void PhotonSums::add(vec3 local, float radius, std::span<vec4> sums) const {
+    const float r2 = radius * radius, size = grid_.cell_size;
+    const int y0 = std::max(cell_at(local.y - radius, size, grid_.rows), 0);
+    const int y1 = std::min(cell_at(local.y + radius, size, grid_.rows), int(grid_.rows) - 1);
+    for (int y = y0; y <= y1; ++y) {
+        const float below = float(y) * size - local.y, dy = std::max({below, -below - size, 0.0f});
+        const float half_width = std::sqrt(std::max(r2 - dy * dy, 0.0f));
+        const int x0 = std::max(cell_at(local.x - half_width, size, grid_.columns), 0);
+        const int x1 = std::min(cell_at(local.x + half_width, size, grid_.columns), int(grid_.columns) - 1);
+        if (x0 > x1) continue;
+        const uint* row = starts_ + size_t(y) * grid_.columns;
+        add_run(row[x0] - first_, row[x1 + 1] - first_, local, 1 / r2, sums);
+    }
+}
+
+void PhotonSums::add_run(size_t first, size_t last, vec3 local, float inverse_radius2, std::span<vec4> sums) const {
+    std::array<float, run_length> weights;
+    const float tolerance = 0.01f * max_radius_;  // of on_same_surface(), written out for vectors
+    for (; first < last; first += run_length) {
+        const size_t count = std::min(last - first, run_length);
+        for (size_t i = 0; i < count; i += lanes) {
+            const Floats du = load(&u_[first + i]) - local.x, dv = load(&v_[first + i]) - local.y,
+                         dh = load(&h_[first + i]) - local.z;
+            const Floats d2 = du * du + dv * dv + dh * dh;
+            const Floats excess = positive((dh < 0 ? -dh : dh) - tolerance);
+            const Floats weight = positive(1 - d2 * inverse_radius2);
+            const Floats kept = excess * excess <= 0.75f * d2 ? weight : Floats{};
+            std::memcpy(&weights[i], &kept, sizeof kept);
+        }
+        for (size_t i = 0; i < count; ++i)
+            sums[sums_per_lamp * lamps_[first + i] + i % sums_per_lamp] += fluxes_[first + i] * weights[i];
+    }
+}
+
+}  // namespace lw

@@ -1,0 +1,57 @@
+#include "maps/smoothing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lw {
+namespace {
+
+constexpr float spread2 = 2.5f;     // variance of the weights over distance, nodes squared
+constexpr float noise = 0.12f;      // relative: twice that of 300 photons
+constexpr float darkest = 1e-30f;   // keeps quotients numbers
+
+/// exp(-x) as (1 - x / 16)^16: a Gaussian that ends, without a call of the library.
+float ending_exponential(float x) {
+    const float t = std::max(1 - x / 16, 0.0f), t2 = t * t, t4 = t2 * t2, t8 = t4 * t4;
+    return t8 * t8;
+}
+
+/// The weights of the nodes `dx` to the right of a row's in another row, times `weight`.
+void weigh(const float* own, const float* other, const float* exists, float weight, std::vector<float>& weights) {
+    float* w = weights.data();
+    for (size_t x = 0; x < weights.size(); ++x) {
+        const float change = (own[x] - other[x]) / (0.5f * noise * (own[x] + other[x]) + darkest);
+        w[x] = weight * exists[x] * ending_exponential(0.5f * change * change);
+    }
+}
+
+void add_weighted(const float* values, const std::vector<float>& weights, float* sums) {
+    for (size_t x = 0; x < weights.size(); ++x) sums[x] += values[x] * weights[x];
+}
+
+void divide(const std::vector<float>& totals, float* sums) {
+    for (size_t x = 0; x < totals.size(); ++x) sums[x] = totals[x] > 0 ? sums[x] / totals[x] : 0.0f;
+}
+
+}  // namespace
+
+LatticePlanes smooth(const LatticePlanes& light, const LatticePlanes& brightness, const LatticePlanes& existence) {
+    constexpr int reach = LatticePlanes::border;
+    LatticePlanes smoothed(light.columns, light.rows, light.planes);
+    std::vector<float> weights(light.columns), totals(light.columns);
+    for (int y = 0; y < int(light.rows); ++y) {
+        std::fill(totals.begin(), totals.end(), 0.0f);
+        for (int dy = -reach; dy <= reach; ++dy)
+            for (int dx = -reach; dx <= reach; ++dx) {
+                const float weight = std::exp(-0.5f * float(dx * dx + dy * dy) / spread2);
+                weigh(brightness.row(0, y), brightness.row(0, y + dy) + dx, existence.row(0, y + dy) + dx, weight, weights);
+                for (size_t x = 0; x < totals.size(); ++x) totals[x] += weights[x];
+                for (uint p = 0; p < light.planes; ++p)
+                    add_weighted(light.row(p, y + dy) + dx, weights, smoothed.row(p, y));
+            }
+        for (uint p = 0; p < light.planes; ++p) divide(totals, smoothed.row(p, y));
+    }
+    return smoothed;
+}
+
+}  // namespace lw

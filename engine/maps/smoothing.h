@@ -1,0 +1,39 @@
+// Takes the mottle out of estimates at the nodes of a lattice: a bilateral filter (Tomasi & Manduchi 1998). Each node is
+// averaged with those around that differ by no more than the noise of the estimate may explain; gradients and edges stay.
+#pragma once
+#include <vector>
+
+#include "shaders/types.h"
+
+namespace lw {
+
+/// Planes of floats over a lattice, with a border of zeros as wide as the filter reaches.
+class LatticePlanes {
+  public:
+    static constexpr uint border = 3;  // nodes
+
+    LatticePlanes(uint across, uint along, uint count)
+        : columns(across),
+          rows(along),
+          planes(count),
+          stride_(columns + 2 * border),
+          values_(size_t(stride_) * (rows + 2 * border) * planes, 0) {}
+
+    /// Node (0, y) of a plane; y from -border to rows + border - 1.
+    float* row(uint plane, int y) {
+        return values_.data() + (size_t(plane) * (rows + 2 * border) + size_t(y + int(border))) * stride_ + border;
+    }
+    const float* row(uint plane, int y) const { return const_cast<LatticePlanes*>(this)->row(plane, y); }
+
+    const uint columns, rows, planes;
+
+  private:
+    size_t stride_;
+    std::vector<float> values_;
+};
+
+/// Smooths all planes of `light` with the same weights, which follow the one plane of `brightness`; nodes whose
+/// `existence` (one plane) is 0 do not count.
+LatticePlanes smooth(const LatticePlanes& light, const LatticePlanes& brightness, const LatticePlanes& existence);
+
+}  // namespace lw

@@ -1,0 +1,200 @@
+#include "photons/photon_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trace/sampling.h"
+
+namespace lw {
+namespace {
+
+constexpr int longest_path = 1000;  // ends paths between surfaces that absorb nothing; 0.99^1000 is 4e-5
+constexpr int depth_of_roulette = 64;
+constexpr int branches = 4;  // into which a path splits where its light first meets a surface and is not stored
+
+float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
+
+/// True when the material is a Lambert reflector of one colour: most surfaces of most rooms.
+bool is_plain_lambert(const Material& m) {
+    return m.metallic <= 0 && m.specular <= 0 && m.transmission <= 0 && m.base_color_texture.texture < 0 &&
+           m.normal_texture.texture < 0 && !(m.flags & material_unlit);
+}
+
+/// The class of a path of class `path` that goes on by `next`. Shadow rays pass where light goes straight on.
+uint path_after(uint path, const Scatter& next) {
+    if (!next.narrow || path == path_indirect) return path_indirect;
+    if (!next.specular || path == path_near_caustic) return path_near_caustic;
+    return next.straight ? path : path_caustic;
+}
+
+}  // namespace
+
+double balance_of(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
+
+/// A photon on its way.
+struct PhotonTracer::Flight {
+    vec3 origin, direction, flux;
+    vec3 medium{0};  // absorption, 1/m
+    uint light = 0, path = path_direct;
+    int depth = 0;
+    bool is_branch = false;  // splits no more: panes one behind the other would multiply it
+};
+
+/// What it meets. Of a matte surface only position, normals and base colour are known.
+struct PhotonTracer::Bounce {
+    Surface surface;
+    uint triangle;
+    bool matte, back, shows_light;
+};
+
+PhotonTracer::PhotonTracer(const Scene& scene, const RayCaster& caster, const ShootSettings& settings)
+    : scene_(scene),
+      caster_(caster),
+      surfaces_(scene),
+      emitters_(scene),
+      aims_(scene.lights.size()),
+      settings_(settings) {
+    for (const Material& m : scene.materials) is_matte_.push_back(scene.colors.empty() && is_plain_lambert(m));
+}
+
+std::array<float, 5> PhotonTracer::numbers(uint light, uint64_t index) const {
+    const auto scramble = uint32_t(mix64(settings_.seed * 0x10001 + light));
+    std::array<float, 5> u;
+    for (int d = 0; d < 5; ++d) u[size_t(d)] = sobol_owen(uint32_t(index), d, scramble);
+    return u;
+}
+
+void PhotonTracer::trace(Chunk& chunk, double emitted, size_t most) const {
+    uint64_t index = chunk.first;
+    for (; index < chunk.last && chunk.photons.size() < most; ++index) trace_path(chunk, index, float(1.0 / emitted));
+    chunk.last = index;
+}
+
+void PhotonTracer::trace_path(Chunk& chunk, uint64_t index, float share) const {
+    Rng rng(settings_.seed, chunk.light + 1, index);
+    std::array<float, 5> u = numbers(chunk.light, index);
+    share *= aims_[chunk.light].warp(u);
+    const Emission photon = emitters_.emit(chunk.light, u);
+    Flight flight{caster_.offset(photon.origin, photon.normal), photon.direction, photon.flux * share};
+    flight.light = chunk.light;
+    chunk.emitted_flux += balance_of(flight.flux);
+    follow(chunk, flight, rng);
+}
+
+/// To the end of the path. Where the light of a lamp is not stored because it is computed exactly, the path goes on as
+/// several: they cost one ray from the lamp instead of one each.
+void PhotonTracer::follow(Chunk& chunk, Flight flight, Rng& rng) const {
+    for (; flight.depth < longest_path; ++flight.depth) {
+        Bounce at;
+        if (!meet(chunk, flight, at, rng)) return;
+        const bool stored = flight.path != path_direct || settings_.direct_in_photons;
+        if (at.shows_light && stored)
+            chunk.photons.push_back({at.surface.position, flight.flux, -flight.direction, at.triangle,
+                                     pack_origin(flight.light, flight.path, at.back)});
+        if (!at.shows_light || stored || flight.is_branch) {
+            if (!leave(chunk, flight, at, rng)) return;
+            continue;
+        }
+        flight.flux /= float(branches);
+        flight.is_branch = true;
+        for (int i = 1; i < branches; ++i) {
+            Flight branch = flight;
+            if (!leave(chunk, branch, at, rng)) continue;
+            ++branch.depth;
+            follow(chunk, branch, rng);
+        }
+        if (!leave(chunk, flight, at, rng)) return;
+    }
+    chunk.absorbed += balance_of(flight.flux);
+}
+
+/// The next surface; false when there is none. The medium on the way takes its part.
+bool PhotonTracer::meet(Chunk& chunk, Flight& flight, Bounce& at, Rng& rng) const {
+    const std::optional<Hit> hit = caster_.nearest(flight.origin, flight.direction, rng);
+    if (!hit) {
+        chunk.escaped += balance_of(flight.flux);
+        return false;
+    }
+    at.triangle = hit->triangle;
+    at.matte = is_matte_[scene_.objects[scene_.triangle_objects[hit->triangle]].material];
+    if (at.matte)
+        read_matte(*hit, at.surface);
+    else
+        at.surface = surfaces_.surface_at(hit->triangle, hit->barycentrics);
+    const vec3 absorption =
+        at.matte ? flight.medium : absorption_before(surfaces_, at.surface, flight.direction, flight.medium);
+    if (absorption != vec3(0)) {
+        const vec3 arriving = flight.flux * surfaces_.passed_by_medium(absorption, hit->distance);
+        chunk.absorbed += balance_of(flight.flux) - balance_of(arriving);
+        flight.flux = arriving;
+    }
+    at.back = dot(at.surface.geometric_normal, flight.direction) > 0;
+    at.shows_light = at.matte || !surfaces_.is_purely_specular(at.surface);
+    chunk.shown += at.shows_light;
+    return true;
+}
+
+/// surface_at() for what a matte bounce needs.
+void PhotonTracer::read_matte(const Hit& hit, Surface& s) const {
+    const uvec3 c = scene_.triangles[hit.triangle];
+    const vec3 p0 = scene_.positions[c.x], p1 = scene_.positions[c.y], p2 = scene_.positions[c.z];
+    const float b1 = hit.barycentrics.x, b2 = hit.barycentrics.y, b0 = 1 - b1 - b2;
+    s.position = b0 * p0 + b1 * p1 + b2 * p2;
+    const vec3 product = cross(p1 - p0, p2 - p0);
+    const float size = length(product);
+    s.geometric_normal = size > 0 ? product / size : vec3(0, 1, 0);
+    const vec3 n = b0 * scene_.normals[c.x] + b1 * scene_.normals[c.y] + b2 * scene_.normals[c.z];
+    const float n_length = length(n);
+    s.normal = n_length > 1e-6f ? n / n_length : s.geometric_normal;
+    if (dot(s.normal, s.geometric_normal) < 0) s.normal = -s.normal;
+    s.base_color = scene_.material_of(hit.triangle).base_color;
+}
+
+/// Sends the photon on from a surface, by roulette; false when it ends there.
+bool PhotonTracer::leave(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const {
+    if (at.matte) return leave_matte(chunk, flight, at, rng);
+    const std::optional<Scatter> next = sample_bsdf(surfaces_, at.surface, -flight.direction, Carries::flux, rng);
+    // Ends what is caught in clear glass.
+    const float longest_survival = flight.depth < depth_of_roulette || (next && !next->specular) ? 1.0f : 0.95f;
+    if (!survives(chunk, flight, next ? next->weight : vec3(0), longest_survival, rng)) return false;
+    flight.path = path_after(flight.path, *next);
+    flight.direction = next->direction;
+    flight.medium = absorption_after(surfaces_, at.surface, flight.direction, flight.medium);
+    const vec3 ng = at.surface.geometric_normal;
+    flight.origin = caster_.offset(at.surface.position, dot(flight.direction, ng) > 0 ? ng : -ng);
+    return true;
+}
+
+/// Roulette: the flux that goes on is `weight` times the arriving one on average. What ends is absorbed.
+bool PhotonTracer::survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival, Rng& rng) {
+    const vec3 reflected = flight.flux * weight;
+    const float before = largest(flight.flux), after = largest(reflected);
+    const float survival = before > 0 ? std::min(longest_survival, after / before) : 0.0f;
+    const bool goes_on = rng.next() < survival;
+    const vec3 kept = goes_on ? reflected * (1 / survival) : vec3(0);
+    chunk.absorbed += balance_of(flight.flux) - balance_of(kept);
+    flight.flux = kept;
+    return goes_on;
+}
+
+/// leave() a Lambert reflector of one colour: what sample_bsdf() does there, without asking for other lobes.
+bool PhotonTracer::leave_matte(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const {
+    const float side = at.back ? -1.0f : 1.0f;
+    const vec3 ng = at.surface.geometric_normal * side, bent = at.surface.normal * side;
+    const bool seen = -dot(bent, flight.direction) > 1e-4f;
+    const vec3 n(seen ? bent.x : ng.x, seen ? bent.y : ng.y, seen ? bent.z : ng.z);
+    const float u = rng.next(), v = rng.next();
+    const vec3 local = sample_cosine(u, v), direction = frame_around(n) * local;
+    const float out = dot(ng, direction);
+    // Flux at bent normals (Veach 1997, equation 5.18); none leaves through the surface.
+    const float shading = std::max(-dot(n, flight.direction), 1e-4f) * out;
+    const float geometric = -dot(ng, flight.direction) * local.z;
+    const float adjoint = !(out > 0) ? 0.0f : geometric > 1e-6f ? shading / geometric : 1.0f;
+    if (!survives(chunk, flight, at.surface.base_color * adjoint, 1, rng)) return false;
+    flight.path = path_indirect;
+    flight.direction = direction;
+    flight.origin = caster_.offset(at.surface.position, ng);
+    return true;
+}
+
+}  // namespace lw
