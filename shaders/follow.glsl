@@ -55,11 +55,6 @@ bool reflects_narrowly(Surface s) LW_MEMBER {
 
 bool is_glass(Surface s) LW_MEMBER { return has_transmission && s.transmission > 0.0f && s.metallic < 1.0f; }
 
-/// The shading normal, or the geometric one where the eye is below it.
-vec3 facing_normal(Seen seen) LW_MEMBER {
-    return dot(seen.n_shading, seen.to_eye) > 1e-4f ? seen.n_shading : seen.n_geometric;
-}
-
 /// Orthonormal basis around unit n as columns (Duff et al. 2017).
 mat3 basis_around(vec3 n) LW_MEMBER {
     float side = n.z < 0.0f ? -1.0f : 1.0f;
@@ -93,7 +88,7 @@ bool is_inside(Seen seen) LW_MEMBER { return !seen.front && refracts(seen.surfac
 /// A ray along the reflecting lobe; weight 0 where it would leave by the wrong side.
 ViewRay reflected_ray(Seen seen, vec3 medium, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
-    vec3 n = facing_normal(seen);
+    vec3 n = seen.n_shading;
     vec3 h = facet_normal(s, n, seen.to_eye, u);
     float vh = dot(h, seen.to_eye);
     float nv = max(dot(n, seen.to_eye), 1e-4f);
@@ -120,7 +115,7 @@ ViewRay straight_ray(Seen seen, ViewRay before) LW_MEMBER {
 /// A ray through a sheet or into or out of a volume; weight 0 where facets reflect totally.
 ViewRay transmitted_ray(Seen seen, ViewRay before, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
-    vec3 n = facing_normal(seen);
+    vec3 n = seen.n_shading;
     vec3 h = transmits_smoothly(s) ? n : facet_normal(s, n, seen.to_eye, u);
     float vh = max(dot(h, seen.to_eye), 1e-4f);
     float nv = max(dot(n, seen.to_eye), 1e-4f);
@@ -162,7 +157,7 @@ ViewRay no_ray() LW_MEMBER {
 ViewRay ray_behind(Seen seen, PathNumbers numbers) LW_MEMBER {
     Surface s = seen.surface;
     float there = opacity_at(seen.triangle, s);
-    float glass = is_glass(s) ? there * largest(transmitted_part(s, max(dot(facing_normal(seen), seen.to_eye), 1e-4f), is_inside(seen)))
+    float glass = is_glass(s) ? there * largest(transmitted_part(s, max(dot(seen.n_shading, seen.to_eye), 1e-4f), is_inside(seen)))
                               : 0.0f;
     float sum = 1.0f - there + glass;
     bool past = choice_number(numbers, 0u) * sum < 1.0f - there;
@@ -237,7 +232,7 @@ struct Ways {
 
 Ways ways_on(Seen seen) LW_MEMBER {
     Surface s = seen.surface;
-    float nv = max(dot(facing_normal(seen), seen.to_eye), 1e-4f);
+    float nv = max(dot(seen.n_shading, seen.to_eye), 1e-4f);
     vec3 fresnel = dielectric_fresnel(s, nv, is_inside(seen));
     Ways ways;
     ways.diffuse = largest(s.base_color) * max(passed_by_fresnel(fresnel), 0.0f) * (1.0f - s.transmission) * (1.0f - s.metallic);
