@@ -17,15 +17,16 @@ struct ViewRay {
 /// Low-discrepancy numbers of a path: element `index` of the R2 sequence (Roberts 2018), shifted.
 struct PathNumbers {
     uint seed;
+    vec2 shift;
     uint index;
 };
 
-/// The paths of a tile of 4 x 4 pixels are one sequence, so that neighbours complete each other.
+/// The shifts of a tile of 4 x 4 pixels are a grid, so that neighbours complete each other.
 PathNumbers path_numbers(uvec2 pixel, Following following, uint sample_index) LW_MEMBER {
-    uint within = (pixel.x & 3u) * 4u + ((pixel.y + 2u * pixel.x) & 3u);
     PathNumbers numbers;
+    numbers.shift = vec2(float((pixel.x + 2u * pixel.y) & 3u), float((pixel.y + 2u * pixel.x) & 3u)) / 4.0f;
     numbers.seed = hash_uint(pixel.x / 4u + 4096u * (pixel.y / 4u) + 0x01000193u * (following.branch + 2u * following.depth));
-    numbers.index = within + 16u * (sample_index * following.paths + following.path);
+    numbers.index = sample_index * following.paths + following.path;
     return numbers;
 }
 
@@ -37,12 +38,13 @@ uint seed_at_end(uint seed, Following following) LW_MEMBER {
 vec2 lobe_numbers(PathNumbers numbers, uint surface) LW_MEMBER {
     uint random = hash_uint(numbers.seed + 0x9e3779b9u * surface);
     vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
-    return fract(start + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
+    return fract(start + numbers.shift + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
 }
 
 float choice_number(PathNumbers numbers, uint surface) LW_MEMBER {
     uint random = hash_uint(numbers.seed ^ (0x85ebca6bu * (surface + 1u)));
-    return min(fract(float(random >> 8) / 16777216.0f + float(numbers.index & 0xffffu) * 0.618033989f), 0.99999994f);
+    float start = float(random >> 8) / 16777216.0f + numbers.shift.x + 0.25f * numbers.shift.y;
+    return min(fract(start + float(numbers.index & 0xffffu) * 0.618033989f), 0.99999994f);
 }
 
 float largest(vec3 v) LW_MEMBER { return max(v.x, max(v.y, v.z)); }
