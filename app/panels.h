@@ -1,6 +1,7 @@
 // What is drawn over the picture with Dear ImGui: panels read and write the session, nothing else.
 #pragma once
 #include "app/baking.h"
+#include "app/reflection_search.h"
 #include "app/session.h"
 
 namespace lw {
@@ -17,6 +18,8 @@ void draw_probe(const Session& session);
 void draw_lamp_marks(const Session& session);
 /// The edge between A and B, which the mouse can drag, and their names.
 void draw_split(Session& session);
+/// Outlines of bright reflections of lamps in the present view, with what mirrors which; a line while they are looked for.
+void draw_reflections(const Session& session, const ReflectionReport* report);
 /// All keys.
 void draw_keys();
 /// The line told last, and the bake that runs.

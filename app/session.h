@@ -45,6 +45,7 @@ struct Viewing {
     GatherSettings gather;
     uint most_samples = 32;
     uint divisor = 0;  // of the resolution while moving; 0: by the time a frame takes
+    bool reflections = false;  // outlines of bright reflections of lamps
 };
 
 /// A measured place that is kept.

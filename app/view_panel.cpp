@@ -18,6 +18,7 @@ void draw_view_choice(Session& s) {
     int view = int(v.view);
     ImGui::SetNextItemWidth(-1);
     if (ImGui::Combo("##view", &view, view_names, int(view_count))) v.view = uint(view);
+    ImGui::Checkbox("reflections of lamps", &v.reflections);
     if (v.view == view_shaded || v.view == view_photons) return;
     ImGui::Checkbox("auto range", &v.auto_range);
     ImGui::SameLine();

@@ -14,6 +14,7 @@
 #include "image/exr.h"
 #include "image/png.h"
 #include "scene/camera.h"
+#include "trace/emitter.h"
 
 namespace lw {
 namespace {
@@ -24,6 +25,12 @@ constexpr double minimised_seconds = 0.2;
 
 using SharedMap = std::shared_ptr<const PhotonMap>;
 
+ReflectionView reflection_view_of(const Session& s, vk::Extent2D size) {
+    const Camera camera = camera_of(s.walker, s.yfov, s.near);
+    return {camera.position, camera.rotation, camera.yfov, uvec2(size.width, size.height),
+            light_weights(s.world.scene, factors_now(s.lighting))};
+}
+
 /// Everything of one Vulkan device; made anew when the device is lost.
 class Show {
   public:
@@ -32,7 +39,8 @@ class Show {
           session_(session),
           device_(with_window(settings.device)),
           presenter_(device_, window, settings.vsync),
-          overlay_(window, device_, presenter_.swapchain()) {
+          overlay_(window, device_, presenter_.swapchain()),
+          reflections_(session.world.scene, session.world.caster) {
         std::fprintf(stderr, "%s on %s\n", session.world.scene.path.filename().c_str(), device_.name().c_str());
     }
 
@@ -97,6 +105,8 @@ class Show {
             draw_split(session_);
             if (session_.panels) draw_lamp_marks(session_);
             draw_probe(session_);
+            if (session_.viewing.reflections)
+                draw_reflections(session_, reflections_.report(reflection_view_of(session_, window_.size()), now));
         }
         if (session_.panels) draw_lamp_panel(session_), draw_view_panel(session_);
         if (session_.keys) draw_keys();
@@ -159,6 +169,7 @@ class Show {
     Overlay overlay_;
     std::unique_ptr<Stage> stage_;
     uint32_t generation_ = 0;
+    ReflectionSearch reflections_;
     double changed_ = 0;  // when the picture last began anew
     double last_ = Window::now(), shown_ = last_;
     float seconds_ = 0;

@@ -17,15 +17,16 @@ struct ViewRay {
 /// Low-discrepancy numbers of a path: element `index` of the R2 sequence (Roberts 2018), shifted.
 struct PathNumbers {
     uint seed;
+    vec2 shift;
     uint index;
 };
 
-/// The paths of a tile of 4 x 4 pixels are one sequence, so that neighbours complete each other.
+/// The shifts of a tile of 4 x 4 pixels are a grid, so that neighbours complete each other.
 PathNumbers path_numbers(uvec2 pixel, Following following, uint sample_index) LW_MEMBER {
-    uint within = (pixel.x & 3u) * 4u + ((pixel.y + 2u * pixel.x) & 3u);
     PathNumbers numbers;
+    numbers.shift = vec2(float((pixel.x + 2u * pixel.y) & 3u), float((pixel.y + 2u * pixel.x) & 3u)) / 4.0f;
     numbers.seed = hash_uint(pixel.x / 4u + 4096u * (pixel.y / 4u) + 0x01000193u * (following.branch + 2u * following.depth));
-    numbers.index = within + 16u * (sample_index * following.paths + following.path);
+    numbers.index = sample_index * following.paths + following.path;
     return numbers;
 }
 
@@ -37,12 +38,13 @@ uint seed_at_end(uint seed, Following following) LW_MEMBER {
 vec2 lobe_numbers(PathNumbers numbers, uint surface) LW_MEMBER {
     uint random = hash_uint(numbers.seed + 0x9e3779b9u * surface);
     vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
-    return fract(start + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
+    return fract(start + numbers.shift + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
 }
 
 float choice_number(PathNumbers numbers, uint surface) LW_MEMBER {
     uint random = hash_uint(numbers.seed ^ (0x85ebca6bu * (surface + 1u)));
-    return min(fract(float(random >> 8) / 16777216.0f + float(numbers.index & 0xffffu) * 0.618033989f), 0.99999994f);
+    float start = float(random >> 8) / 16777216.0f + numbers.shift.x + 0.25f * numbers.shift.y;
+    return min(fract(start + float(numbers.index & 0xffffu) * 0.618033989f), 0.99999994f);
 }
 
 float largest(vec3 v) LW_MEMBER { return max(v.x, max(v.y, v.z)); }
@@ -54,11 +56,6 @@ bool reflects_narrowly(Surface s) LW_MEMBER {
 }
 
 bool is_glass(Surface s) LW_MEMBER { return has_transmission && s.transmission > 0.0f && s.metallic < 1.0f; }
-
-/// The shading normal, or the geometric one where the eye is below it.
-vec3 facing_normal(Seen seen) LW_MEMBER {
-    return dot(seen.n_shading, seen.to_eye) > 1e-4f ? seen.n_shading : seen.n_geometric;
-}
 
 /// Orthonormal basis around unit n as columns (Duff et al. 2017).
 mat3 basis_around(vec3 n) LW_MEMBER {
@@ -93,7 +90,7 @@ bool is_inside(Seen seen) LW_MEMBER { return !seen.front && refracts(seen.surfac
 /// A ray along the reflecting lobe; weight 0 where it would leave by the wrong side.
 ViewRay reflected_ray(Seen seen, vec3 medium, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
-    vec3 n = facing_normal(seen);
+    vec3 n = seen.n_shading;
     vec3 h = facet_normal(s, n, seen.to_eye, u);
     float vh = dot(h, seen.to_eye);
     float nv = max(dot(n, seen.to_eye), 1e-4f);
@@ -120,7 +117,7 @@ ViewRay straight_ray(Seen seen, ViewRay before) LW_MEMBER {
 /// A ray through a sheet or into or out of a volume; weight 0 where facets reflect totally.
 ViewRay transmitted_ray(Seen seen, ViewRay before, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
-    vec3 n = facing_normal(seen);
+    vec3 n = seen.n_shading;
     vec3 h = transmits_smoothly(s) ? n : facet_normal(s, n, seen.to_eye, u);
     float vh = max(dot(h, seen.to_eye), 1e-4f);
     float nv = max(dot(n, seen.to_eye), 1e-4f);
@@ -162,7 +159,7 @@ ViewRay no_ray() LW_MEMBER {
 ViewRay ray_behind(Seen seen, PathNumbers numbers) LW_MEMBER {
     Surface s = seen.surface;
     float there = opacity_at(seen.triangle, s);
-    float glass = is_glass(s) ? there * largest(transmitted_part(s, max(dot(facing_normal(seen), seen.to_eye), 1e-4f), is_inside(seen)))
+    float glass = is_glass(s) ? there * largest(transmitted_part(s, max(dot(seen.n_shading, seen.to_eye), 1e-4f), is_inside(seen)))
                               : 0.0f;
     float sum = 1.0f - there + glass;
     bool past = choice_number(numbers, 0u) * sum < 1.0f - there;
@@ -237,7 +234,7 @@ struct Ways {
 
 Ways ways_on(Seen seen) LW_MEMBER {
     Surface s = seen.surface;
-    float nv = max(dot(facing_normal(seen), seen.to_eye), 1e-4f);
+    float nv = max(dot(seen.n_shading, seen.to_eye), 1e-4f);
     vec3 fresnel = dielectric_fresnel(s, nv, is_inside(seen));
     Ways ways;
     ways.diffuse = largest(s.base_color) * max(passed_by_fresnel(fresnel), 0.0f) * (1.0f - s.transmission) * (1.0f - s.metallic);

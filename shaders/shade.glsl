@@ -20,6 +20,7 @@ Seen see(uint triangle, vec2 barycentrics, vec3 eye) LW_MEMBER {
     seen.front = dot(seen.surface.geometric_normal, seen.to_eye) >= 0.0f;
     seen.n_geometric = seen.front ? seen.surface.geometric_normal : -seen.surface.geometric_normal;
     seen.n_shading = seen.front ? seen.surface.normal : -seen.surface.normal;
+    if (dot(seen.n_shading, seen.to_eye) <= 1e-4f) seen.n_shading = seen.n_geometric;
     seen.at = place_on(map_of(triangle, seen.front), seen.surface.position);
     return seen;
 }

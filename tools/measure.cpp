@@ -21,6 +21,7 @@
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "scene/profile.h"
+#include "scene/recorded_path.h"
 
 namespace {
 
@@ -29,7 +30,7 @@ constexpr uint64_t photons_to_start_with = 200'000;
 struct Options {
     std::string scene, map, saved_map, csv, fields_csv, report, reflections, reflections_csv;
     std::vector<std::string> points, grids, surfaces, photometry, powers, ambiances, cameras;
-    double error_percent = 0;
+    double error_percent = 0, reflections_step = 1;
     uint64_t photons = 0, reference_paths = 0;
     unsigned threads = 0;
     lw::SurveySettings survey;
@@ -103,26 +104,49 @@ void keep_map(const Options& o, const lw::Survey& survey) {
     }
 }
 
-/// Bright reflections of lamps in one view, traced without photons.
-void report_reflections(const Options& o, const lw::Scene& scene, const lw::RayCaster& caster) {
-    const lw::Camera& camera = lw::find_camera(scene, o.reflections);
-    const lw::PowerSetting powers = ambiances_of(o, scene).back();
-    const std::vector<lw::vec3> weights = lw::light_weights(scene, powers.factors);
-    lw::ReflectionSettings settings;
-    settings.limits = o.limits;
-    settings.seed = o.survey.meter.seed;
-    const lw::ReflectionReport report = lw::find_reflections(scene, caster, camera, weights, settings);
-    std::printf("camera %s, %s: %zu reflections over %g cd/m2, %g times their surroundings and %g sr\n",
-                camera.name.c_str(), powers.name.c_str(), report.found.size(), o.limits.luminance, o.limits.ratio,
-                o.limits.solid_angle);
+/// The cameras in which reflections are looked for: one of the scene, or those along a recorded walk.
+std::vector<lw::Camera> reflection_views(const Options& o, const lw::Scene& scene) {
+    if (std::filesystem::path(o.reflections).extension() != ".json") return {lw::find_camera(scene, o.reflections)};
+    const lw::Path path = lw::load_path(o.reflections);
+    std::vector<lw::Camera> views;
+    for (int i = 0; i * o.reflections_step <= path.seconds() + 1e-9; ++i) {
+        views.push_back(lw::camera_on(path, i * o.reflections_step, scene));
+        char name[32];
+        std::snprintf(name, sizeof name, "%g s", i * o.reflections_step);
+        views.back().name = name;
+    }
+    return views;
+}
+
+void print_reflections(const Options& o, const lw::Scene& scene, const std::string& view, const std::string& powers,
+                       const lw::ReflectionReport& report) {
+    std::printf("camera %s, %s: %zu reflections over %g cd/m2, %g times their surroundings and %g sr\n", view.c_str(),
+                powers.c_str(), report.found.size(), o.limits.luminance, o.limits.ratio, o.limits.solid_angle);
     for (const lw::Reflection& found : report.found)
         std::printf("  %s; %.2g sr, position index %.1f, at pixel %.0f, %.0f of %dx%d\n",
                     lw::describe(scene, found).c_str(), found.solid_angle, found.position_index, double(found.x),
                     double(found.y), report.width, report.height);
     std::printf("UGR %.1f, of the lamps alone %.1f; background %.3g cd/m2\n", report.ugr, report.ugr_lamps,
                 report.background);
+}
+
+/// Bright reflections of lamps in one view or along a walk, traced without photons.
+void report_reflections(const Options& o, const lw::Scene& scene, const lw::RayCaster& caster) {
+    const lw::PowerSetting powers = ambiances_of(o, scene).back();
+    const std::vector<lw::vec3> weights = lw::light_weights(scene, powers.factors);
+    lw::ReflectionSettings settings;
+    settings.limits = o.limits;
+    settings.seed = o.survey.meter.seed;
+    std::vector<lw::ViewedReflections> views;
+    for (const lw::Camera& camera : reflection_views(o, scene)) {
+        views.push_back({camera.name, lw::find_reflections(scene, caster, camera, weights, settings)});
+        print_reflections(o, scene, camera.name, powers.name, views.back().report);
+    }
     if (o.reflections_csv.empty()) return;
-    lw::write_reflections(o.reflections_csv, scene, report);
+    if (views.size() == 1)
+        lw::write_reflections(o.reflections_csv, scene, views[0].report);
+    else
+        lw::write_reflections(o.reflections_csv, scene, views);
     std::printf("wrote %s\n", o.reflections_csv.c_str());
 }
 
@@ -215,7 +239,11 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--camera", o.cameras, "camera to show in the report in false colours; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--reflections", o.reflections,
-                   "camera whose view is searched for bright reflections of lamps; needs no map");
+                   "camera, or file of a recorded walk (.json), whose views are searched for bright reflections of lamps; "
+                   "needs no map");
+    app.add_option("--reflections-step", o.reflections_step, "seconds between the views along a recorded walk")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 3600.0));
     app.add_option("--reflections-csv", o.reflections_csv, "file of one row per reflection");
     app.add_option("--least-luminance", o.limits.luminance, "cd/m2 of the mirrored lamp, below which none is reported")
         ->capture_default_str()

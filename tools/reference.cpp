@@ -60,7 +60,7 @@ void render(Options& options) {
     std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n", options.output.c_str(),
                 (unsigned long long)reference.samples, reference.relative_error);
     if (reference.caustic_radius > 0)
-        std::printf("caustics of points and suns are traced from the lamps and blurred over %.2g m\n",
+        std::printf("caustics are traced from the lamps and blurred over %.2g m\n",
                     double(reference.caustic_radius));
 }
 
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
                  "leave out the illuminance channel (half the time)");
     app.add_option(
            "--caustic-paths", options.settings.caustic_paths,
-           "paths from the lamps per sample, for light of points and suns by way of mirrors and glass (0: none)")
+           "paths from the lamps per sample, for light of lamps by way of mirrors and glass (0: none)")
         ->capture_default_str()
         ->check(CLI::Range(uint64_t(0), uint64_t(1) << 32));
     app.add_option("--caustic-radius", options.settings.caustic_radius,

@@ -26,6 +26,7 @@ struct Options {
     std::vector<std::string> powers, photometry;
     unsigned neighbours = lw::GatherSettings{}.neighbours, samples = 1, frames = 3,
              shadow_rays = lw::GatherSettings{}.shadow_rays, paths = lw::GatherSettings{}.paths;
+    float followed_roughness = lw::GatherSettings{}.followed_roughness;
     std::optional<float> exposure;
     bool list_cameras = false, list_lights = false, list_devices = false, validation = false;
     bool lists() const { return list_cameras || list_lights || list_devices; }
@@ -58,6 +59,10 @@ void add_options(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--paths", o.paths, "paths followed per pixel along narrow lobes and through glass, where there are any")
         ->check(CLI::Range(1u, lw::most_paths))
+        ->capture_default_str();
+    app.add_option("--followed-roughness", o.followed_roughness,
+                   "rays follow what surfaces smoother than this reflect; photons show it of the others")
+        ->check(CLI::Range(0.0f, 1.01f))
         ->capture_default_str();
     app.add_option("--exposure", o.exposure, "EV100; default: from the picture")->check(lw::finite_number(-100, 100));
     app.add_option("--samples", o.samples, "views averaged per pixel")
@@ -143,7 +148,7 @@ void take_screenshot(const Options& o) {
     resident.set_light_factors(factors);
     const vk::Extent2D size = picture_size(o, camera);
     lw::Renderer renderer(device, resident, size.width, size.height);
-    const lw::GatherSettings gather{gather_mode(o.gather), o.neighbours, o.shadow_rays, o.paths};
+    const lw::GatherSettings gather{gather_mode(o.gather), o.neighbours, o.shadow_rays, o.paths, o.followed_roughness};
     const lw::Rendering picture = renderer.render(camera, {gather, o.exposure, o.samples, o.frames});
     refuse_validation_messages(device);
     lw::check_is_light(picture.image);

@@ -1,5 +1,7 @@
 #include "gather/live_view.h"
 
+#include <cmath>
+
 #include "gather/renderer.h"
 
 namespace lw {
@@ -31,7 +33,13 @@ GatherPass& LiveView::pass_for(const GatherSettings& settings) {
 
 void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side) {
     stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
-    pass_for(settings).record(commands, with_gather(frame, *resident_, settings), side == Side::a ? a_ : b_);
+    GatherSettings gather = settings;
+    Frame sample = frame;
+    if (settings.shadow_rays > 0 && resident_->narrowest_lobe() < settings.followed_roughness) {
+        if (frame.sample_index == 0) gather.followed_roughness = std::sqrt(smallest_alpha);
+        if (frame.sample_index == 1) sample.sample_index = 0, sample.sample_weight *= 2;  // in the place of the first
+    }
+    pass_for(gather).record(commands, with_gather(sample, *resident_, gather), side == Side::a ? a_ : b_);
 }
 
 void LiveView::record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {

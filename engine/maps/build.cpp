@@ -101,7 +101,7 @@ double affordable_references(const Scene& scene, const Photons& photons, const P
     bool caustics = false;
     for (const Photon& p : photons.records) {
         is_lit[patches.of_side[2 * p.triangle + p.side()]] = 1;
-        caustics |= p.path() == path_caustic;
+        caustics |= is_caustic(p.path());
     }
     const auto lamps = uint(scene.lights.size());
     const double of_node =

@@ -187,23 +187,60 @@ std::string describe(const Scene& scene, const Reflection& reflection) {
     return scene.object_names[reflection.object] + " mirrors " + scene.light_names[reflection.lamp] + numbers;
 }
 
+namespace {
+
+constexpr const char* columns =
+    "object,lamp,luminance_cd_m2,peak_cd_m2,surroundings_cd_m2,ratio,solid_angle_sr,position_index,glare,ugr_alone,x_px,"
+    "y_px,pixels\n";
+
+std::string quoted(const std::string& name) {
+    std::string text = "\"";
+    for (char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
+    return text + '"';
+}
+
+std::string row_of(const Scene& scene, const ReflectionReport& report, const Reflection& r) {
+    char line[320];
+    std::snprintf(line, sizeof line, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.4f,%.6g,%.2f,%.1f,%.1f,%zu\n", r.luminance, r.peak,
+                  r.surroundings, r.ratio(), r.solid_angle, r.position_index, r.glare,
+                  unified_glare_rating(r.glare, report.background), double(r.x), double(r.y), r.pixels.size());
+    return quoted(scene.object_names[r.object]) + ',' + quoted(scene.light_names[r.lamp]) + line;
+}
+
+}  // namespace
+
 void write_reflections(const std::filesystem::path& path, const Scene& scene, const ReflectionReport& report) {
-    const auto quoted = [](const std::string& name) {
-        std::string text = "\"";
-        for (char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
-        return text + '"';
-    };
     ReplacedFile file(path);
-    file.stream() << "object,lamp,luminance_cd_m2,peak_cd_m2,surroundings_cd_m2,ratio,solid_angle_sr,position_index,"
-                     "glare,ugr_alone,x_px,y_px,pixels\n";
-    for (const Reflection& r : report.found) {
-        char line[320];
-        std::snprintf(line, sizeof line, ",%.6g,%.6g,%.6g,%.6g,%.6g,%.4f,%.6g,%.2f,%.1f,%.1f,%zu\n", r.luminance,
-                      r.peak, r.surroundings, r.ratio(), r.solid_angle, r.position_index, r.glare,
-                      unified_glare_rating(r.glare, report.background), double(r.x), double(r.y), r.pixels.size());
-        file.stream() << quoted(scene.object_names[r.object]) << ',' << quoted(scene.light_names[r.lamp]) << line;
-    }
+    file.stream() << columns;
+    for (const Reflection& r : report.found) file.stream() << row_of(scene, report, r);
     file.commit();
+}
+
+void write_reflections(const std::filesystem::path& path, const Scene& scene,
+                       const std::vector<ViewedReflections>& views) {
+    ReplacedFile file(path);
+    file.stream() << "view," << columns;
+    for (const ViewedReflections& v : views)
+        for (const Reflection& r : v.report.found)
+            file.stream() << quoted(v.view) << ',' << row_of(scene, v.report, r);
+    file.commit();
+}
+
+std::vector<OutlineEdge> outline_of(const Reflection& reflection, int width) {
+    const auto columns_wide = uint(width);
+    const auto inside = [&](uint x, uint y) {  // x may be -1 as the largest number
+        return x < columns_wide &&
+               std::binary_search(reflection.pixels.begin(), reflection.pixels.end(), y * columns_wide + x);
+    };
+    std::vector<OutlineEdge> edges;
+    for (uint pixel : reflection.pixels) {
+        const uint x = pixel % columns_wide, y = pixel / columns_wide;
+        if (!inside(x - 1, y)) edges.push_back({x, y, x, y + 1});
+        if (!inside(x + 1, y)) edges.push_back({x + 1, y, x + 1, y + 1});
+        if (y == 0 || !inside(x, y - 1)) edges.push_back({x, y, x + 1, y});
+        if (!inside(x, y + 1)) edges.push_back({x, y + 1, x + 1, y + 1});
+    }
+    return edges;
 }
 
 }  // namespace lw

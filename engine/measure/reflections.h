@@ -58,4 +58,20 @@ std::string describe(const Scene& scene, const Reflection& reflection);
 /// One line per reflection, with a header. Throws Error when the file cannot be written.
 void write_reflections(const std::filesystem::path& path, const Scene& scene, const ReflectionReport& report);
 
+/// The reports of several views, such as those along a walk, by their names.
+struct ViewedReflections {
+    std::string view;
+    ReflectionReport report;
+};
+/// The same table with the name of the view as first column.
+void write_reflections(const std::filesystem::path& path, const Scene& scene,
+                       const std::vector<ViewedReflections>& views);
+
+/// An edge between a pixel of a patch and one outside, in pixels from the top left corner.
+struct OutlineEdge {
+    uint x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+/// The outline of a patch in a picture `width` pixels wide.
+std::vector<OutlineEdge> outline_of(const Reflection& reflection, int width);
+
 }  // namespace lw

@@ -1,5 +1,7 @@
 #include "scene/json_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +9,13 @@
 #include "base/replaced_file.h"
 
 namespace lw {
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void fail(const std::string& where, const std::string& what) { throw Error(where + ": " + what); }
+
+}  // namespace
 
 nlohmann::json read_json(const std::filesystem::path& path) {
     constexpr uintmax_t most_bytes = uintmax_t(64) << 20;
@@ -27,6 +36,33 @@ void write_json(const std::filesystem::path& path, const nlohmann::json& value) 
     ReplacedFile file(path);
     file.stream() << value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
     file.commit();
+}
+
+double number_in(const Json& entry, const char* key, const std::string& where, double otherwise) {
+    if (!entry.contains(key)) return otherwise;
+    if (!entry[key].is_number()) fail(where, std::string(key) + " must be a number");
+    const double value = entry[key].get<double>();
+    if (!std::isfinite(value) || std::abs(value) > 1e9) fail(where, std::string(key) + " is out of range");
+    return value;
+}
+
+glm::dvec3 position_in(const Json& entry, const std::string& where) {
+    const auto is_number = [](const Json& v) { return v.is_number(); };
+    if (!entry.contains("position") || !entry["position"].is_array() || entry["position"].size() != 3 ||
+        !std::all_of(entry["position"].begin(), entry["position"].end(), is_number))
+        fail(where, "position must be [x, y, z] in metres");
+    const Json& p = entry["position"];
+    const glm::dvec3 position(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+    if (!(length(position) < 1e9)) fail(where, "position is out of range");
+    return position;
+}
+
+const Json& list_in(const Json& file, const char* key, const std::string& where) {
+    if (!file.is_object() || !file.contains(key) || !file[key].is_array())
+        fail(where, std::string("must have a list \"") + key + "\"");
+    for (const Json& entry : file[key])
+        if (!entry.is_object()) fail(where, std::string(key) + ": every entry must be an object");
+    return file[key];
 }
 
 std::filesystem::path json_beside(const std::filesystem::path& scene, const std::string& what) {

@@ -26,7 +26,8 @@ class CausticPath {
     void trace(uint light, vec3 weight, const std::array<float, 5>& numbers, Rng& rng,
                std::vector<Caustics::Arrival>& arrivals) const {
         const Emission emission = emitters_.emit(light, numbers);
-        vec3 flux = emission.flux * weight, origin = emission.origin, direction = emission.direction, medium(0);
+        vec3 flux = emission.flux * weight, origin = caster_.offset(emission.origin, emission.normal),
+             direction = emission.direction, medium(0);
         bool direct = true;
         for (int bounce = 0; bounce < most_bounces; ++bounce) {
             const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
@@ -51,16 +52,13 @@ class CausticPath {
     Emitters emitters_;
 };
 
-bool is_unreachable(const Light& light, vec3 weight) { return light.type != light_mesh && luminance(weight) > 0; }
-
 /// Paths of each lamp, in proportion to its flux.
 std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, std::span<const vec3> weights,
                                   uint64_t wanted) {
     std::vector<double> flux(scene.lights.size(), 0);
     double sum = 0;
     for (uint i = 0; i < flux.size(); ++i)
-        if (is_unreachable(scene.lights[i], weights[i]))
-            sum += flux[i] = luminance(weights[i]) * double(path.unit_flux(i));
+        sum += flux[i] = luminance(weights[i]) * double(path.unit_flux(i));
     std::vector<uint64_t> paths(flux.size(), 0);
     for (size_t i = 0; i < flux.size(); ++i)
         if (flux[i] > 0) paths[i] = 1 + uint64_t(double(wanted) * flux[i] / sum);
@@ -75,9 +73,7 @@ bool has_caustics(const Scene& scene, std::span<const vec3> weights) {
         return smooth && (m.metallic > 0 || m.specular > 0 || m.transmission > 0);
     };
     if (std::none_of(scene.materials.begin(), scene.materials.end(), is_specular)) return false;
-    for (size_t i = 0; i < scene.lights.size(); ++i)
-        if (is_unreachable(scene.lights[i], weights[i])) return true;
-    return false;
+    return std::any_of(weights.begin(), weights.end(), [](vec3 weight) { return luminance(weight) > 0; });
 }
 
 Caustics::Caustics(const Scene& scene, const RayCaster& caster, std::span<const vec3> weights,

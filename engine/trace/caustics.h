@@ -1,4 +1,4 @@
-// Light of points, spots and suns by way of mirrors and smooth glass alone: what no path from the eye can find. Traced
+// Light of lamps by way of mirrors and smooth glass alone: what no path from the eye finds, or only by a rare chance. Traced
 // from the lamps and spread over a small radius; the mean over many independent sets with shrinking radii converges to
 // the truth (progressive photon mapping in its memoryless form, Knaus & Zwicker 2011). Used by the reference, not by
 // the maps.
@@ -19,7 +19,7 @@ struct CausticSettings {
     uint64_t set = 0;  // another set is independent of this one
 };
 
-/// True when the scene has a point, spot or directional lamp of weight > 0 and a mirror, smooth glass or gloss that is
+/// True when the scene has a lamp of weight > 0 and a mirror, smooth glass or gloss that is
 /// followed as a mirror.
 bool has_caustics(const Scene& scene, std::span<const vec3> weights);
 

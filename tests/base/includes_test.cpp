@@ -39,7 +39,7 @@ const std::map<std::string, std::vector<std::string>> fences = {
     {"CLI/", {}},
     {"GLFW/", {}},
     {"imgui", {}},
-    {"nlohmann/", {"scene/ambiance.", "scene/json_file.", "scene/gltf_file."}},
+    {"nlohmann/", {"scene/ambiance.", "scene/json_file.", "scene/recorded_path.", "scene/gltf_file."}},
 };
 
 struct Include {

@@ -104,6 +104,7 @@ Image cached_reference(const std::filesystem::path& folder, const Scene& scene, 
     ReferenceSettings settings;
     settings.width = int(view.width), settings.height = int(view.height);
     settings.samples = view.samples;
+    settings.illuminance = view.illuminance;
     settings.seed = reference_seed;
     const Image image = render_reference(scene, caster, view.camera, light_weights(scene, {}), settings).image;
     std::filesystem::create_directories(file.parent_path());

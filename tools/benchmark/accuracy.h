@@ -11,6 +11,7 @@ struct ReferenceView {
     Camera camera;
     uint width, height;
     uint64_t samples;  // paths per pixel
+    bool illuminance = true;
 };
 
 /// The reference picture of a view with illuminance and standard errors; read from `folder` when it was made before

@@ -44,7 +44,7 @@ class Measured {
   public:
     Measured(const Bench& bench, const Room& room, const Size& size, uint64_t photons)
         : size_(size), baked_(scene_of(bench, room), settings_for(photons), bench.folder), device_(bench.device, baked_) {
-        const ReferenceView view{baked_.scene.cameras[0], size.width, size.height, size.samples};
+        const ReferenceView view{baked_.scene.cameras[0], size.width, size.height, size.samples, false};
         reference_ = cached_reference(bench.folder, baked_.scene, *baked_.caster, view);
     }
 
@@ -65,7 +65,7 @@ class Measured {
         return error_of(frame.rendering.image, reference_, Quantity::luminance, {}, pixels);
     }
     /// Pixels whose caustic light exceeds `lux`.
-    std::vector<bool> caustic_pixels() const;
+    std::vector<bool> caustic_pixels(const TimedFrame& frame) const;
 
   private:
     static BakeSettings settings_for(uint64_t photons) {
@@ -80,8 +80,8 @@ class Measured {
 };
 
 /// Where photons that came by mirrors and glass alone bring more than half the picture's mean illuminance.
-std::vector<bool> Measured::caustic_pixels() const {
-    const std::vector<float>& lux = reference_.find("illuminance")->values;
+std::vector<bool> Measured::caustic_pixels(const TimedFrame& frame) const {
+    const std::vector<float>& lux = frame.rendering.image.find("illuminance")->values;
     std::vector<bool> lit(lux.size(), false);
     if (baked_.map.caustic_grids == 0) return lit;
     double mean = 0;
@@ -106,7 +106,7 @@ std::vector<bool> Measured::caustic_pixels() const {
 /// The error where only the floor is looked at, by photons alone and with the lobe followed.
 std::vector<Row> measure_threshold(const Bench& bench, float roughness) {
     const Measured room(bench, {"glossy_floor.gltf", "polished", roughness},
-                        {bench.pick(80u, 120u), bench.pick(60u, 90u), bench.pick<uint64_t>(64, 400)},
+                        {80, 60, bench.pick<uint64_t>(64, 400)},
                         bench.pick<uint64_t>(200'000, 4'000'000));
     const std::vector<bool> floor = room.pixels_of("polished");
     std::vector<Row> rows;
@@ -130,7 +130,7 @@ std::vector<Row> measure_threshold(const Bench& bench, float roughness) {
 
 std::vector<Row> measure_room(const Bench& bench, const Room& described) {
     const Measured room(bench, described,
-                        {bench.pick(100u, 160u), bench.pick(75u, 120u), bench.pick<uint64_t>(64, 1024)},
+                        {120, 90, bench.pick<uint64_t>(64, 400)},
                         bench.pick<uint64_t>(200'000, 4'000'000));
     std::vector<Row> rows;
     for (uint paths : {1u, 4u, 16u}) {
@@ -143,7 +143,7 @@ std::vector<Row> measure_room(const Bench& bench, const Room& described) {
                 {"paths", paths},
                 {"visibility_ms", frame.rendering.times.visibility_ms},
                 {"gather_ms", frame.rendering.times.gather_ms}};
-        const std::vector<bool> caustic = room.caustic_pixels();
+        const std::vector<bool> caustic = room.caustic_pixels(frame);
         std::vector<bool> other = caustic;
         other.flip();
         add_error(row, room.error(frame, other));
