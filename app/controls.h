@@ -19,7 +19,11 @@ void apply_keys(Session& session, Window& window, const Events& events, Taken ta
 /// Clicks: capture the mouse, select a lamp, pin the probe (needs the map).
 void apply_clicks(Session& session, Window& window, const Events& events, Taken taken, const PhotonMap* map);
 
-/// Buttons of the gamepad that were pressed since the last call: fly, next view, panels.
-void apply_gamepad(Session& session);
+/// What sticks and held buttons ask for: left stick walks, right stick looks, A and B up and down, a bumper is faster.
+WalkInput gamepad_input(const Gamepad& pad, float seconds);
+
+/// Buttons of the gamepad that were pressed: X flies, Y is the next view, Start hides the panels, the cross goes from
+/// place to place and dims the selected lamp.
+void apply_buttons(Session& session, const std::vector<int>& buttons);
 
 }  // namespace lw

@@ -19,14 +19,14 @@ ShaderConstants with_mode(ShaderConstants constants, GatherSettings settings) {
 
 }  // namespace
 
-Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings) {
+Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps) {
     frame.neighbours = std::max(1u, settings.neighbours);
     frame.max_radius = resident.max_radius();
     frame.inverse_flux_scale = resident.inverse_flux_scale();
     frame.ray_epsilon = resident.ray_epsilon();
     frame.scene_size = resident.scene_size();
     frame.shadow_rays = settings.shadow_rays;
-    frame.inverse_irradiance_scale = resident.inverse_irradiance_scale();
+    frame.inverse_irradiance_scale = resident.inverse_irradiance_scale(lamps);
     frame.triangle_limit = resident.triangle_count();
     return frame;
 }
@@ -46,9 +46,9 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
     }
 }
 
-void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture) const {
+void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps) const {
     using Stage = vk::PipelineStageFlagBits2;
-    const vk::DescriptorSet sets[] = {resident_->descriptors().handle(), picture.descriptors().handle()};
+    const vk::DescriptorSet sets[] = {resident_->descriptors(lamps).handle(), picture.descriptors().handle()};
     const uint words = ray_words(uint(resident_->scene().lights.size()));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
     commands.pushConstants<Frame>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, frame);

@@ -28,9 +28,11 @@ GatherPass& LiveView::pass_for(const GatherSettings& settings) {
     return *pass;
 }
 
-void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side) {
+void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
+                            uint lamps) {
     stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
-    pass_for(settings).record(commands, with_gather(frame, *resident_, settings), side == Side::a ? a_ : b_);
+    pass_for(settings).record(commands, with_gather(frame, *resident_, settings, lamps), side == Side::a ? a_ : b_,
+                              lamps);
 }
 
 void LiveView::record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {
