@@ -82,8 +82,8 @@ void apply_key(Session& s, Window& window, const KeyPress& press) {
         case GLFW_KEY_F2:
             s.picture_wish = Wish::save;
             return;
-        case GLFW_KEY_C:
-            if (press.control) s.picture_wish = Wish::copy;
+        case GLFW_KEY_F3:
+            s.picture_wish = Wish::copy;
             return;
         case GLFW_KEY_G:
             return toggle_field_choice(s);

@@ -61,11 +61,16 @@ void draw_cell(const Session& s, const Field& field, size_t i) {
     list->AddText(place, field.values[i].doubt.empty() ? IM_COL32_WHITE : IM_COL32(255, 150, 140, 255), text);
 }
 
-void draw_name(const Session& s, const Field& field) {
+/// The sums under the corner that is lowest in the picture, so that they hide none of the points.
+void draw_sums(const Session& s, const Field& field) {
     const GridShape& grid = field.set.grid;
-    const auto at = screen_position(s, grid.corner, display());
-    if (at && is_seen(s, grid.corner + 0.5f * (grid.across + grid.along)))
-        draw_plate(at->x + 8, at->y + 8, field.request.name + "\n" + summary_of(field));
+    const vec3 across = float(grid.columns) * grid.across, along = float(grid.rows) * grid.along;
+    std::optional<vec2> lowest;
+    for (const vec3& corner : {grid.corner, grid.corner + across, grid.corner + along, grid.corner + across + along}) {
+        const auto at = screen_position(s, corner, display());
+        if (at && is_seen(s, corner) && (!lowest || at->y > lowest->y)) lowest = at;
+    }
+    if (lowest) draw_plate(lowest->x + 8, lowest->y + 8, field.request.name + "\n" + summary_of(field));
 }
 
 }  // namespace
@@ -73,7 +78,7 @@ void draw_name(const Session& s, const Field& field) {
 void draw_fields(const Session& s) {
     for (const Field& field : s.fields.fields) {
         for (size_t i = 0; i < field.set.sensors.size(); ++i) draw_cell(s, field, i);
-        draw_name(s, field);
+        draw_sums(s, field);
     }
     if (!s.fields.corner) return;
     if (const auto at = screen_position(s, *s.fields.corner, display()))

@@ -29,7 +29,7 @@ constexpr KeyText key_texts[] = {
     {"[ ]", "darker, brighter; \\: automatic exposure"},
     {"P", "probe; click (or right click) pins it"},
     {"G", "calculation grid: click two opposite corners"},
-    {"F2, Ctrl+C", "picture: save PNG as seen and EXR with the values; copy"},
+    {"F2, F3", "picture: save PNG as seen and EXR with the values; copy"},
     {"H, F1, F11", "panels, keys, full screen"},
     {"Ctrl+Q", "quit"},
     {"gamepad", "sticks: walk, look; A B: up, down; X: fly; Y: next view;"},

@@ -50,7 +50,8 @@ void Show::frame(const BakingState& baking) {
     const bool idle = stage_ && stage_->is_finished(shot_of(session_, 1)) && !session_.flight;
     const Events events = window_.poll(window_.size().width == 0 ? minimised_seconds : idle ? idle_seconds : 0);
     const double now = Window::now();
-    const auto seconds = float(idle ? std::min(now - last_, 0.05) : now - last_);
+    seconds_ = float(now - last_);
+    const float seconds = idle ? std::min(seconds_, 0.05f) : seconds_;  // a step after a rest is no leap
     last_ = now;
     take_input(events, seconds);
     const std::optional<OpenFrame> open = presenter_.begin();
@@ -62,12 +63,11 @@ void Show::frame(const BakingState& baking) {
 
 void Show::take_input(const Events& events, float seconds) {
     const Taken taken{overlay_.wants_mouse() && !window_.is_captured(), overlay_.wants_keyboard()};
-    apply_keys(session_, window_, events, taken, ImGui::GetIO().MouseWheel);
     apply_clicks(session_, window_, events, taken, stage_ ? &stage_->map() : nullptr);
+    apply_keys(session_, window_, events, taken, ImGui::GetIO().MouseWheel);
     apply_buttons(session_, events.buttons);
     advance(session_, walk_input(window_, events, taken, seconds), seconds);
     measure();
-    seconds_ = seconds;
 }
 
 /// Measures again when the view, the lamps or the map have changed.

@@ -170,7 +170,7 @@ void draw_view_panel(Session& s) {
         ImGui::Separator();
         if (ImGui::Button("save (F2)")) s.picture_wish = Wish::save;
         ImGui::SameLine();
-        if (ImGui::Button("copy (Ctrl+C)")) s.picture_wish = Wish::copy;
+        if (ImGui::Button("copy (F3)")) s.picture_wish = Wish::copy;
         ImGui::SameLine();
         if (ImGui::Button("keys (F1)")) s.keys = !s.keys;
     }

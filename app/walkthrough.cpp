@@ -142,6 +142,8 @@ void walk_in_window(const WalkthroughSettings& settings) {
     std::unique_ptr<World> world = load_world(settings, book_beside(settings.scene));
     auto session = std::make_unique<Session>(*world, settings.output);
     set_start(settings, *session);
+    if (device_names().empty())
+        throw Error("Vulkan: no device found (mesa-vulkan-drivers has one that runs on the CPU)");
     Window window("Lumenwalk - " + settings.scene.filename().string(), settings.size);
     for (;;) {
         walk_in_world(window, settings, *session);

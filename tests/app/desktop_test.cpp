@@ -42,6 +42,7 @@ TEST(Desktop, OnAFineScreenThePictureHasAllItsPixelsAndClicksHitWhatIsSeen) {
     const std::string before = window.screenshot();
     EXPECT_EQ(read_png(before + ".png").width, 640) << "320 units of the desktop at two pixels each";
     xdotool("mousemove --window " + window.id() + " 320 70 click 1");  // the ceiling lamp, in pixels
+    window.screenshot();                                               // by then it is selected
     for (int i = 0; i < 10; ++i) xdotool("click 5");
     pause_ms(1000);
     EXPECT_NEAR(mean_illuminance(window.screenshot() + ".exr"), 0.5 * mean_illuminance(before + ".exr"),
@@ -67,7 +68,7 @@ TEST(Desktop, FillsTheScreenAndComesBackAndWaitsAsAnIcon) {
     window.key("F11");
     pause_ms(1000);
     xdotool("windowminimize " + window.id());
-    pause_ms(700);
+    pause_ms(3000);
     const double used = processor_seconds(window.process().id());
     pause_ms(2000);
     EXPECT_LT(processor_seconds(window.process().id()) - used, 0.3) << "an icon has nothing to draw";
@@ -108,9 +109,11 @@ TEST(Desktop, ALostDeviceIsStartedAgainAndTheLampsStayAsTheyWere) {
     ASSERT_TRUE(window.waits_for(" photons\n"));
     xdotool("mousemove --window " + window.id() + " 160 35 click 1");
     window.key("h");
+    const double full = mean_illuminance(window.screenshot() + ".exr");
     for (int i = 0; i < 10; ++i) xdotool("click 5");
     pause_ms(1000);
     const double dimmed = mean_illuminance(window.screenshot() + ".exr");
+    EXPECT_NEAR(dimmed, 0.5 * full, 0.01 * full);
     losing.lose();
     ASSERT_TRUE(window.waits_for("the graphics device was lost: starting it again"));
     pause_ms(2000);
@@ -147,7 +150,7 @@ TEST(Desktop, CopiesThePictureToTheClipboard) {
     pause_ms(5500);
     const Rgb8Image saved = read_png(window.screenshot() + ".png");
     pause_ms(5500);  // the line about it has gone
-    window.key("ctrl+c");
+    window.key("F3");
     ASSERT_TRUE(window.waits_for("picture copied to the clipboard")) << window.process().err_so_far();
     EXPECT_EQ(window.close().exit_code, 0);
     const std::string file = window.folder() / "pasted.png";

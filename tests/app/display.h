@@ -14,7 +14,8 @@ namespace lw {
 
 inline bool has_display_tools() {
     return std::system(
-               "(command -v Xvfb && command -v xdotool && command -v openbox && command -v xclip) >/dev/null") == 0;
+               "(command -v Xvfb && command -v xdotool && command -v openbox && command -v xprop && command -v xclip) "
+               ">/dev/null") == 0;
 }
 
 inline void pause_ms(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
@@ -56,13 +57,15 @@ class Display {
     /// 96 dots per inch: a unit of the desktop is a pixel; 192: two.
     explicit Display(const std::string& dpi = "96") {
         const std::string file = folder_ / "number";
-        process_ = start({"Xvfb", "-displayfd", "9", "-screen", "0", "1280x800x24", "-dpi", dpi, "-fbdir",
-                          folder_.path().string(), "-nolisten", "tcp"},
+        process_ = start({"Xvfb", "-displayfd", "9", "-screen", "0", "1280x800x24", "-fbdir", folder_.path().string(),
+                          "-noreset", "-nolisten", "tcp"},
                          file);
         if (!wait_until([&] { return read_text(file).find('\n') != std::string::npos; }))
             throw Error("Xvfb: no display");
         const std::string number = read_text(file);
         setenv("DISPLAY", (":" + number.substr(0, number.find('\n'))).c_str(), 1);
+        const std::string resource = "xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi: " + dpi + "'";
+        if (std::system(resource.c_str()) != 0) throw Error("xprop: does not set the display's resolution");
     }
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
@@ -114,14 +117,16 @@ inline void xdotool(const std::string& words) {
 }
 
 /// lumenwalk at work in a window that has the keyboard; a scene of data/ is copied into its folder first,
-/// and text for its bookmarks.
+/// and text for its bookmarks and ambiances.
 class WalkingWindow {
   public:
-    WalkingWindow(const std::string& scene, const std::vector<std::string>& more, const std::string& bookmarks = "") {
+    WalkingWindow(const std::string& scene, const std::vector<std::string>& more, const std::string& bookmarks = "",
+                  const std::string& ambiances = "") {
         std::filesystem::copy_file(LUMENWALK_SOURCE_DIR "/data/" + scene, folder_ / scene);
         std::filesystem::copy(LUMENWALK_SOURCE_DIR "/data/photometry", folder_ / "photometry");
         stem_ = std::filesystem::path(scene).stem().string();
         if (!bookmarks.empty()) write_text(folder_ / (stem_ + ".bookmarks.json"), bookmarks);
+        if (!ambiances.empty()) write_text(folder_ / (stem_ + ".ambiances.json"), ambiances);
         std::vector<std::string> words{folder_ / scene, "--size", "320x240", "--validation", "--device", "llvmpipe"};
         words.insert(words.end(), more.begin(), more.end());
         process_ = std::make_unique<Process>("", words);
@@ -184,4 +189,4 @@ class WalkingWindow {
 #define SKIP_WITHOUT_DISPLAY()    \
     SKIP_WITHOUT_LAVAPIPE();      \
     if (!lw::has_display_tools()) \
-    GTEST_SKIP() << "no Xvfb, xdotool, openbox and xclip here: tools/install-packages installs them"
+    GTEST_SKIP() << "no Xvfb, xdotool, openbox, xprop and xclip here: tools/install-packages installs them"
