@@ -127,6 +127,20 @@ void apply_key(Session& s, Window& window, const KeyPress& press) {
     }
 }
 
+void apply_click(Session& s, Window& window, const Click& click, const PhotonMap* map, vec2 size) {
+    const vec2 at = window.is_captured() ? 0.5f * size : vec2(click.x, click.y);
+    const int lamp = click.right || s.fields.chooses ? -1 : lamp_at(s, at, size);
+    if (s.fields.chooses && !click.right) {
+        choose_corner(s, at, size);
+    } else if (lamp >= 0) {
+        s.lighting.selected = lamp;
+    } else if (map && (click.right || (window.is_captured() && s.metering.on))) {
+        pin_at(s, *map, at, size);
+    } else if (!click.right) {
+        window.capture_mouse(true);
+    }
+}
+
 }  // namespace
 
 WalkInput walk_input(const Window& window, const Events& events, Taken taken, float seconds) {
@@ -143,26 +157,18 @@ WalkInput walk_input(const Window& window, const Events& events, Taken taken, fl
     return {input.move + pad.move, input.turn + pad.turn, input.fast || pad.fast};
 }
 
-void apply_keys(Session& s, Window& window, const Events& events, Taken taken, float wheel) {
-    for (const KeyPress& press : events.keys)
-        if (!taken.keyboard || press.key == GLFW_KEY_F1 || press.key == GLFW_KEY_F11) apply_key(s, window, press);
-    if (wheel != 0 && !taken.mouse) dim_selected(s, dimmer_step * wheel);
-}
-
-void apply_clicks(Session& s, Window& window, const Events& events, Taken taken, const PhotonMap* map) {
-    for (const Click& click : events.clicks) {
-        if (taken.mouse) continue;
-        const vec2 size(float(events.size.width), float(events.size.height));
-        const vec2 at = window.is_captured() ? 0.5f * size : vec2(click.x, click.y);
-        const int lamp = click.right || s.fields.chooses ? -1 : lamp_at(s, at, size);
-        if (s.fields.chooses && !click.right) {
-            choose_corner(s, at, size);
-        } else if (lamp >= 0) {
-            s.lighting.selected = lamp;
-        } else if (map && (click.right || (window.is_captured() && s.metering.on))) {
-            pin_at(s, *map, at, size);
-        } else if (!click.right) {
-            window.capture_mouse(true);
+void apply_actions(Session& s, Window& window, const Events& events, Taken taken, const PhotonMap* map) {
+    const vec2 size(float(events.size.width), float(events.size.height));
+    for (const auto& action : events.actions) {
+        if (const auto* press = std::get_if<KeyPress>(&action)) {
+            if (!taken.keyboard || press->key == GLFW_KEY_F1 || press->key == GLFW_KEY_F11)
+                apply_key(s, window, *press);
+        } else if (taken.mouse) {
+            continue;
+        } else if (const auto* click = std::get_if<Click>(&action)) {
+            apply_click(s, window, *click, map, size);
+        } else {
+            dim_selected(s, dimmer_step * std::get<Scroll>(action).turns);
         }
     }
 }

@@ -1,7 +1,5 @@
 #include "app/show.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <cstdio>
 
@@ -63,8 +61,7 @@ void Show::frame(const BakingState& baking) {
 
 void Show::take_input(const Events& events, float seconds) {
     const Taken taken{overlay_.wants_mouse() && !window_.is_captured(), overlay_.wants_keyboard()};
-    apply_clicks(session_, window_, events, taken, stage_ ? &stage_->map() : nullptr);
-    apply_keys(session_, window_, events, taken, ImGui::GetIO().MouseWheel);
+    apply_actions(session_, window_, events, taken, stage_ ? &stage_->map() : nullptr);
     apply_buttons(session_, events.buttons);
     advance(session_, walk_input(window_, events, taken, seconds), seconds);
     measure();

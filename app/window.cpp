@@ -65,22 +65,25 @@ Window::Window(const std::string& title, vk::Extent2D size) {
     glfwSetWindowUserPointer(window_, this);
     static const auto on_key = [](GLFWwindow* w, int key, int, int action, int mods) {
         if (action == GLFW_PRESS)
-            window_of(w).events_.keys.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
+            window_of(w).events_.actions.emplace_back(
+                KeyPress{key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
     };
     static const auto on_button = [](GLFWwindow* w, int button, int action, int) {
         if (action != GLFW_PRESS || button > GLFW_MOUSE_BUTTON_RIGHT) return;
         Window& window = window_of(w);
         int width = 0, height = 0;
         glfwGetWindowSize(w, &width, &height);
-        window.events_.clicks.push_back(click_at(window.pointer_x_, window.pointer_y_,
-                                                 {uint32_t(width), uint32_t(height)}, window.size(),
-                                                 button == GLFW_MOUSE_BUTTON_RIGHT));
+        window.events_.actions.emplace_back(click_at(window.pointer_x_, window.pointer_y_,
+                                                     {uint32_t(width), uint32_t(height)}, window.size(),
+                                                     button == GLFW_MOUSE_BUTTON_RIGHT));
     };
     static const auto on_move = [](GLFWwindow* w, double x, double y) {
         window_of(w).pointer_x_ = x, window_of(w).pointer_y_ = y;
     };
     glfwSetKeyCallback(
         window_, [](GLFWwindow* w, int key, int code, int action, int mods) { on_key(w, key, code, action, mods); });
+    glfwSetScrollCallback(
+        window_, [](GLFWwindow* w, double, double y) { window_of(w).events_.actions.emplace_back(Scroll{float(y)}); });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { on_move(w, x, y); });
     glfwSetMouseButtonCallback(
         window_, [](GLFWwindow* w, int button, int action, int mods) { on_button(w, button, action, mods); });

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "gpu/device.h"
@@ -22,6 +23,11 @@ struct KeyPress {
     bool shift, control;
 };
 
+/// A turn of the mouse wheel, away from the user positive.
+struct Scroll {
+    float turns;
+};
+
 /// A gamepad in the layout of GLFW: indices GLFW_GAMEPAD_AXIS_*, GLFW_GAMEPAD_BUTTON_*.
 struct Gamepad {
     std::array<float, 6> axes{};  // -1 to 1, right and down are positive
@@ -37,12 +43,11 @@ Click click_at(double x, double y, vk::Extent2D units, vk::Extent2D pixels, bool
 
 /// What happened since the last poll.
 struct Events {
-    std::vector<KeyPress> keys;
-    std::vector<Click> clicks;
-    std::optional<Gamepad> gamepad;  // the first there is
-    std::vector<int> buttons;        // of the gamepad, newly pressed
-    vk::Extent2D size;               // of the picture, pixels; 0 while minimised
-    float mouse_x = 0, mouse_y = 0;  // moved, in screen units; only while captured
+    std::vector<std::variant<KeyPress, Click, Scroll>> actions;  // in their order: a frame may take long
+    std::optional<Gamepad> gamepad;                              // the first there is
+    std::vector<int> buttons;                                    // of the gamepad, newly pressed
+    vk::Extent2D size;                                           // of the picture, pixels; 0 while minimised
+    float mouse_x = 0, mouse_y = 0;                              // moved, in screen units; only while captured
 };
 
 class Window {
