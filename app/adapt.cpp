@@ -61,7 +61,16 @@ void adapt_to(Viewing& v, const std::vector<Glance>& glance, float seconds) {
     v.low = range.x, v.high = range.y;
 }
 
-uint Divisor::next(uint wanted, const Statistics& last, bool still) {
+std::optional<vec2> spread_of(const std::vector<Glance>& glance) {
+    std::vector<float> values;
+    for (const Glance& g : glance)
+        if (g.seen > 0 && std::isfinite(g.value)) values.push_back(g.value);
+    if (values.empty()) return std::nullopt;
+    std::sort(values.begin(), values.end());
+    return vec2(values[values.size() / 2], values[values.size() * 95 / 100]);
+}
+
+uint Divisor::next(uint wanted, const FrameStatistics& last, bool still) {
     if (wanted > 0) return wanted;
     if (last.times.gather_ms > 0.1) whole_ms_ = last.times.sum() * last.times.divisor * last.times.divisor;
     const uint needed = uint(std::clamp(std::ceil(std::sqrt(whole_ms_ / wanted_ms)), 1.0, double(most)));

@@ -12,6 +12,9 @@ void adapt_to(Viewing& viewing, const std::vector<Glance>& glance, float seconds
 /// out and the room does not drown; even around 0 for signed views.
 vec2 range_of(std::vector<float> values, uint view, bool logarithmic);
 
+/// Median and 95th percentile of the values of a glance; none when nothing is seen.
+std::optional<vec2> spread_of(const std::vector<Glance>& glance);
+
 /// Chooses by how much the picture's sides are divided while moving, so that a frame takes 66 ms or less: coarser at
 /// any time, finer only after standing still, so that nothing flickers between sizes.
 class Divisor {
@@ -19,7 +22,7 @@ class Divisor {
     static constexpr uint most = 4;
 
     /// `wanted`: what the user chose, 0 for automatic. `still`: samples are adding up.
-    uint next(uint wanted, const Statistics& last, bool still);
+    uint next(uint wanted, const FrameStatistics& last, bool still);
 
   private:
     uint now_ = most;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/metering.h"
 #include "app/panels.h"
 
 namespace lw {
@@ -14,33 +15,16 @@ namespace {
 constexpr float radians_per_unit = 0.0022f;  // of mouse movement
 constexpr float stick_radians_per_second = 2.4f;
 constexpr float dead_zone = 0.15f;
+constexpr float dimmer_step = 0.05f;
 
-std::optional<GLFWgamepadstate> gamepad() {
-    GLFWgamepadstate state;
-    for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id)
-        if (glfwJoystickIsGamepad(id) && glfwGetGamepadState(id, &state)) return state;
-    return std::nullopt;
-}
-
-float stick(const GLFWgamepadstate& pad, int axis) {
-    const float value = pad.axes[axis];
-    return std::abs(value) < dead_zone ? 0 : value - std::copysign(dead_zone, value);
+/// Nothing around the middle, where sticks rest badly, then linear to 1.
+float stick(const Gamepad& pad, int axis) {
+    const float value = std::clamp(pad.axes[size_t(axis)], -1.0f, 1.0f), beyond = std::abs(value) - dead_zone;
+    return beyond > 0 ? std::copysign(beyond / (1 - dead_zone), value) : 0;
 }
 
 float held(const Window& window, std::initializer_list<int> keys) {
     return std::any_of(keys.begin(), keys.end(), [&](int key) { return window.is_down(key); }) ? 1.0f : 0.0f;
-}
-
-void add_gamepad(WalkInput& input, float seconds) {
-    const std::optional<GLFWgamepadstate> pad = gamepad();
-    if (!pad) return;
-    const auto down = [&](int button) { return pad->buttons[button] == GLFW_PRESS; };
-    input.move += vec3(stick(*pad, GLFW_GAMEPAD_AXIS_LEFT_X),
-                       float(down(GLFW_GAMEPAD_BUTTON_A)) - float(down(GLFW_GAMEPAD_BUTTON_B)),
-                       -stick(*pad, GLFW_GAMEPAD_AXIS_LEFT_Y));
-    input.turn -= vec2(stick(*pad, GLFW_GAMEPAD_AXIS_RIGHT_X), stick(*pad, GLFW_GAMEPAD_AXIS_RIGHT_Y)) *
-                  (stick_radians_per_second * seconds);
-    input.fast = input.fast || down(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER) || down(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER);
 }
 
 void toggle_flying(Session& s) {
@@ -64,6 +48,19 @@ void change_exposure(Session& s, float by) {
     s.viewing.exposure_ev += by;
 }
 
+void dim_selected(Session& s, float by) {
+    if (s.lighting.selected < 0) return;
+    float& dimmer = s.lighting.board[size_t(s.lighting.selected)].dimmer;
+    dimmer = std::clamp(dimmer + by, 0.0f, 2.0f);
+}
+
+/// The next camera or bookmark, or the one before.
+void change_place(Session& s, int by) {
+    const auto count = int(s.world.scene.cameras.size() + s.bookmarks.size());
+    s.place = (s.place + by + count) % count;
+    fly_to(s, size_t(s.place));
+}
+
 void apply_lamp_key(Session& s, int key) {
     if (s.lighting.selected < 0) return;
     LampState& lamp = s.lighting.board[size_t(s.lighting.selected)];
@@ -77,13 +74,19 @@ void apply_key(Session& s, Window& window, const KeyPress& press) {
         tell(s, "no camera or bookmark " + std::to_string(key - GLFW_KEY_0), 2);
     switch (key) {
         case GLFW_KEY_ESCAPE:
+            s.fields.chooses = false;
             return window.capture_mouse(false);
         case GLFW_KEY_F1:
             s.keys = !s.keys;
             return;
         case GLFW_KEY_F2:
-            s.screenshot = true;
+            s.picture_wish = Wish::save;
             return;
+        case GLFW_KEY_F3:
+            s.picture_wish = Wish::copy;
+            return;
+        case GLFW_KEY_G:
+            return toggle_field_choice(s);
         case GLFW_KEY_F11:
             return window.toggle_full_screen();
         case GLFW_KEY_H:
@@ -124,6 +127,20 @@ void apply_key(Session& s, Window& window, const KeyPress& press) {
     }
 }
 
+void apply_click(Session& s, Window& window, const Click& click, const PhotonMap* map, vec2 size) {
+    const vec2 at = window.is_captured() ? 0.5f * size : vec2(click.x, click.y);
+    const int lamp = click.right || s.fields.chooses ? -1 : lamp_at(s, at, size);
+    if (s.fields.chooses && !click.right) {
+        choose_corner(s, at, size);
+    } else if (lamp >= 0) {
+        s.lighting.selected = lamp;
+    } else if (map && (click.right || (window.is_captured() && s.metering.on))) {
+        pin_at(s, *map, at, size);
+    } else if (!click.right) {
+        window.capture_mouse(true);
+    }
+}
+
 }  // namespace
 
 WalkInput walk_input(const Window& window, const Events& events, Taken taken, float seconds) {
@@ -135,45 +152,49 @@ WalkInput walk_input(const Window& window, const Events& events, Taken taken, fl
         input.move.z = held(window, {GLFW_KEY_W, GLFW_KEY_UP}) - held(window, {GLFW_KEY_S, GLFW_KEY_DOWN});
         input.fast = held(window, {GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT}) > 0;
     }
-    add_gamepad(input, seconds);
-    return input;
+    if (!events.gamepad) return input;
+    const WalkInput pad = gamepad_input(*events.gamepad, seconds);
+    return {input.move + pad.move, input.turn + pad.turn, input.fast || pad.fast};
 }
 
-void apply_keys(Session& s, Window& window, const Events& events, Taken taken, float wheel) {
-    for (const KeyPress& press : events.keys)
-        if (!taken.keyboard || press.key == GLFW_KEY_F1 || press.key == GLFW_KEY_F11) apply_key(s, window, press);
-    if (wheel == 0 || taken.mouse || s.lighting.selected < 0) return;
-    float& dimmer = s.lighting.board[size_t(s.lighting.selected)].dimmer;
-    dimmer = std::clamp(dimmer + 0.05f * wheel, 0.0f, 2.0f);
-}
-
-void apply_clicks(Session& s, Window& window, const Events& events, Taken taken, const PhotonMap* map) {
-    for (const Click& click : events.clicks) {
-        if (taken.mouse) continue;
-        const vec2 size(float(events.size.width), float(events.size.height));
-        const vec2 at = window.is_captured() ? 0.5f * size : vec2(click.x, click.y);
-        const int lamp = click.right ? -1 : lamp_at(s, at, size);
-        if (lamp >= 0) {
-            s.lighting.selected = lamp;
-        } else if (map && (click.right || (window.is_captured() && s.metering.on))) {
-            pin_at(s, *map, at, size);
-        } else if (!click.right) {
-            window.capture_mouse(true);
+void apply_actions(Session& s, Window& window, const Events& events, Taken taken, const PhotonMap* map) {
+    const vec2 size(float(events.size.width), float(events.size.height));
+    for (const auto& action : events.actions) {
+        if (const auto* press = std::get_if<KeyPress>(&action)) {
+            if (!taken.keyboard || press->key == GLFW_KEY_F1 || press->key == GLFW_KEY_F11)
+                apply_key(s, window, *press);
+        } else if (taken.mouse) {
+            continue;
+        } else if (const auto* click = std::get_if<Click>(&action)) {
+            apply_click(s, window, *click, map, size);
+        } else {
+            dim_selected(s, dimmer_step * std::get<Scroll>(action).turns);
         }
     }
 }
 
-void apply_gamepad(Session& s) {
-    static GLFWgamepadstate before{};  // of the one gamepad that is read
-    const std::optional<GLFWgamepadstate> pad = gamepad();
-    if (!pad) return;
-    const auto pressed = [&](int button) {
-        return pad->buttons[button] == GLFW_PRESS && before.buttons[button] != GLFW_PRESS;
-    };
-    if (pressed(GLFW_GAMEPAD_BUTTON_X)) toggle_flying(s);
-    if (pressed(GLFW_GAMEPAD_BUTTON_Y)) change_view(s, 1);
-    if (pressed(GLFW_GAMEPAD_BUTTON_START)) s.panels = !s.panels;
-    before = *pad;
+WalkInput gamepad_input(const Gamepad& pad, float seconds) {
+    const auto down = [&](int button) { return pad.buttons[size_t(button)]; };
+    WalkInput input;
+    input.move = vec3(stick(pad, GLFW_GAMEPAD_AXIS_LEFT_X),
+                      float(down(GLFW_GAMEPAD_BUTTON_A)) - float(down(GLFW_GAMEPAD_BUTTON_B)),
+                      -stick(pad, GLFW_GAMEPAD_AXIS_LEFT_Y));
+    input.turn = -vec2(stick(pad, GLFW_GAMEPAD_AXIS_RIGHT_X), stick(pad, GLFW_GAMEPAD_AXIS_RIGHT_Y)) *
+                 (stick_radians_per_second * seconds);
+    input.fast = down(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER) || down(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER);
+    return input;
+}
+
+void apply_buttons(Session& s, const std::vector<int>& buttons) {
+    for (int button : buttons) {
+        if (button == GLFW_GAMEPAD_BUTTON_X) toggle_flying(s);
+        if (button == GLFW_GAMEPAD_BUTTON_Y) change_view(s, 1);
+        if (button == GLFW_GAMEPAD_BUTTON_START) s.panels = !s.panels;
+        if (button == GLFW_GAMEPAD_BUTTON_DPAD_LEFT) change_place(s, -1);
+        if (button == GLFW_GAMEPAD_BUTTON_DPAD_RIGHT) change_place(s, 1);
+        if (button == GLFW_GAMEPAD_BUTTON_DPAD_UP) dim_selected(s, dimmer_step);
+        if (button == GLFW_GAMEPAD_BUTTON_DPAD_DOWN) dim_selected(s, -dimmer_step);
+    }
 }
 
 }  // namespace lw

@@ -70,10 +70,10 @@ const char* unit_of(const Light& light) {
     return light.type == light_directional ? "lx" : light.type == light_mesh ? "cd/m2" : "cd";
 }
 
-std::string power_text(const Light& light, float dimmer) {
+std::string power_text(const Light& light, float dimmer, float profile_flux) {
     const float intensity = luminance(light.intensity) * dimmer;
     char text[64];
-    const float lumens = unit_flux(light) * intensity;
+    const float lumens = (light.type == light_profile ? profile_flux : unit_flux(light)) * intensity;
     if (lumens > 0)
         std::snprintf(text, sizeof text, "%.4g %s, %.4g lm", double(intensity), unit_of(light), double(lumens));
     else

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "app/panels.h"
-#include "base/error.h"
 
 namespace lw {
 namespace {
@@ -28,10 +27,33 @@ bool draw_dimmer(const char* label, float& dimmer) {
     return true;
 }
 
+std::string power_of(const Session& s, size_t i) {
+    const auto luminaire = s.world.luminaires.find(i);
+    const float flux = luminaire == s.world.luminaires.end() ? 0 : luminaire->second.unit_flux;
+    const LampState& lamp = s.lighting.board[i];
+    return power_text(s.world.scene.lights[i], lamp.on ? lamp.dimmer : 0, flux);
+}
+
+/// The right button on a lamp: into which groups it belongs.
+void draw_group_menu(Session& s, const std::string& lamp) {
+    if (!ImGui::BeginPopupContextItem("##groups")) return;
+    auto& groups = s.lighting.book.groups;
+    if (groups.empty()) ImGui::TextDisabled("no groups yet: write a name above, then \"as group\"");
+    for (auto& [name, lamps] : groups) {
+        const auto found = std::find(lamps.begin(), lamps.end(), lamp);
+        if (!ImGui::MenuItem(("in group " + name).c_str(), nullptr, found != lamps.end())) continue;
+        if (found != lamps.end())
+            lamps.erase(found);
+        else
+            lamps.push_back(lamp);
+        save_book(s, "group \"" + name + "\"");
+    }
+    ImGui::EndPopup();
+}
+
 void draw_lamp(Session& s, size_t i) {
     Lighting& l = s.lighting;
     LampState& lamp = l.board[i];
-    const Light& light = s.world.scene.lights[i];
     ImGui::PushID(int(i));
     const bool selected = l.selected == int(i);
     ImGui::Checkbox("##on", &lamp.on);
@@ -40,7 +62,9 @@ void draw_lamp(Session& s, size_t i) {
     if (ImGui::Selectable(s.world.scene.light_names[i].c_str(), selected, 0,
                           ImVec2(ImGui::GetContentRegionAvail().x - 62, 0)))
         l.selected = selected ? -1 : int(i);
-    if (selected && ImGui::IsItemVisible() == false) ImGui::SetScrollHereY();
+    draw_group_menu(s, s.world.scene.light_names[i]);
+    if (selected && !ImGui::IsItemVisible() && s.lighting.selected != s.lighting.scrolled_to) ImGui::SetScrollHereY();
+    if (selected) s.lighting.scrolled_to = s.lighting.selected;
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - 54);
     ImGui::ColorEdit3("##filter", &lamp.color.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("filter: what the lamp's light is multiplied by");
@@ -51,7 +75,7 @@ void draw_lamp(Session& s, size_t i) {
     if (was_solo) ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("solo: only such lamps are lit");
     draw_dimmer("##dimmer", lamp.dimmer);
-    ImGui::TextDisabled("  %s", power_text(light, lamp.on ? lamp.dimmer : 0).c_str());
+    ImGui::TextDisabled("  %s", power_of(s, i).c_str());
     ImGui::PopID();
 }
 
@@ -69,7 +93,10 @@ void draw_group(Session& s, const std::string& name, const std::vector<size_t>& 
         for (size_t i : lamps) mean += l.board[i].dimmer / float(lamps.size());
         if (draw_dimmer("##group dimmer", mean))
             for (size_t i : lamps) l.board[i].dimmer = mean;
-        if (by_hand && ImGui::SmallButton("dissolve group")) l.book.groups.erase(name);
+        if (by_hand && ImGui::SmallButton("dissolve group")) {
+            l.book.groups.erase(name);
+            save_book(s, "without group \"" + name + "\": groups");
+        }
         for (size_t i : lamps)
             if (matches(s.world.scene.light_names[i], l.search)) draw_lamp(s, i);
     }
@@ -96,20 +123,6 @@ void draw_groups(Session& s) {
     }
     for (const auto& [name, lamps] : by_parent) draw_group(s, name, lamps, false);
     for (size_t i : alone) draw_lamp(s, i);
-}
-
-void save_book(Session& s, const std::string& what) {
-    const std::filesystem::path path = default_ambiances_path(s.world.scene.path);
-    if (!s.lighting.book_trouble.empty()) {
-        tell(s, s.lighting.book_trouble + "; put it right or move it away");
-        return;
-    }
-    try {
-        save_lamp_book(path, s.lighting.book);
-        tell(s, what + " saved in " + path.string());
-    } catch (const Error& failure) {
-        tell(s, failure.what());
-    }
 }
 
 void choose_ambiance(Session& s, const std::string& name, const Ambiance& ambiance) {
@@ -165,6 +178,7 @@ void draw_lamp_panel(Session& s) {
         ImGui::InputTextWithHint("##search", "search", &s.lighting.search);
         ImGui::SameLine();
         if (ImGui::Button("reset")) fade_to(s.lighting, LampBoard(s.lighting.board.size()));
+        draw_photometry_section(s);
         if (ImGui::BeginChild("lamps")) draw_groups(s);
         ImGui::EndChild();
     }

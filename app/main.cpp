@@ -23,6 +23,9 @@ void add_options(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--camera", o.walk.camera, "camera to start at; default: the first");
     app.add_option("--ambiance", o.walk.ambiance, "powers of this name in SCENE.ambiances.json to start with");
+    app.add_option("--ies", o.walk.photometry,
+                   "LAMP=FILE, an IES LM-63 or EULUMDAT file on a point or spot lamp; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--size", o.size, "pixels of the window as WxH; default: 1280x720, of --play 960x540");
     app.add_option("-o,--output", o.output,
                    "folder of screenshots, probe tables and recorded walks; default: that of the scene");
@@ -67,6 +70,7 @@ void run(Options& o) {
     play.map = walk.map;
     play.device = walk.device;
     play.ambiance = walk.ambiance;
+    play.photometry = walk.photometry;
     if (!o.size.empty()) play.size = walk.size;
     play.gather.mode = o.gather == "exact"    ? lw::gather_mode_exact
                        : o.gather == "smooth" ? lw::gather_mode_smooth

@@ -18,14 +18,6 @@ ImU32 color_of(vec3 srgb, float alpha = 1) {
 
 vec2 display() { return {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y}; }
 
-/// Text on a dark plate with its top left corner at (x, y).
-void draw_plate(ImDrawList* list, float x, float y, const std::string& text,
-                ImU32 color = IM_COL32(240, 240, 240, 255)) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    list->AddRectFilled(ImVec2(x - 5, y - 3), ImVec2(x + size.x + 5, y + size.y + 3), IM_COL32(15, 16, 19, 215), 3);
-    list->AddText(ImVec2(x, y), color, text.c_str());
-}
-
 std::string format(const char* pattern, double value) {
     char text[64];
     std::snprintf(text, sizeof text, pattern, value);
@@ -68,6 +60,13 @@ std::string probe_text(const Session& s, const Measurement& m) {
 }
 
 }  // namespace
+
+void draw_plate(float x, float y, const std::string& text, uint color) {
+    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    list->AddRectFilled(ImVec2(x - 5, y - 3), ImVec2(x + size.x + 5, y + size.y + 3), IM_COL32(15, 16, 19, 215), 3);
+    list->AddText(ImVec2(x, y), color, text.c_str());
+}
 
 std::optional<vec2> screen_position(const Session& s, vec3 point, vec2 size) {
     const Camera camera = camera_of(s.walker, s.yfov, s.near);
@@ -153,15 +152,16 @@ void draw_probe(const Session& s) {
         if (!at) continue;
         list->AddCircleFilled(ImVec2(at->x, at->y), 4, IM_COL32(255, 190, 60, 255));
         list->AddCircle(ImVec2(at->x, at->y), 5, IM_COL32(0, 0, 0, 255));
-        draw_plate(list, at->x + 10, at->y - 7, std::to_string(i + 1) + ": " + format("%.4g lx", double(m.lux)));
+        draw_plate(at->x + 10, at->y - 7, std::to_string(i + 1) + ": " + format("%.4g lx", double(m.lux)));
     }
-    if (!s.metering.on) return;
+    if (!s.metering.on && !s.fields.chooses) return;
     for (ImU32 color : {IM_COL32(0, 0, 0, 255), IM_COL32(255, 255, 255, 255)}) {
         const float w = color == IM_COL32(255, 255, 255, 255) ? 1.0f : 3.0f;
         list->AddLine(ImVec2(c.x - 9, c.y), ImVec2(c.x + 10, c.y), color, w);
         list->AddLine(ImVec2(c.x, c.y - 9), ImVec2(c.x, c.y + 10), color, w);
     }
-    draw_plate(list, c.x + 18, c.y + 14, s.metering.live ? probe_text(s, s.metering.live->value) : "nothing here");
+    if (!s.metering.on) return;
+    draw_plate(c.x + 18, c.y + 14, s.metering.live ? probe_text(s, s.metering.live->value) : "nothing here");
 }
 
 void draw_lamp_marks(const Session& s) {
@@ -175,7 +175,7 @@ void draw_lamp_marks(const Session& s) {
         const ImU32 color = selected ? IM_COL32(255, 190, 60, 255) : IM_COL32(255, 255, 255, 150);
         list->AddCircle(ImVec2(at->x, at->y), selected ? 9.0f : 6.0f, color, 0, selected ? 2.0f : 1.0f);
         if (selected)
-            draw_plate(list, at->x + 14, at->y - 7,
+            draw_plate(at->x + 14, at->y - 7,
                        scene.light_names[i] + format("  %.0f %%", 100 * double(s.lighting.board[i].dimmer)) +
                            (s.lighting.board[i].on ? "" : "  off"));
     }
@@ -202,11 +202,10 @@ void draw_split(Session& s) {
     }
     ImGui::End();
     ImGui::PopStyleVar(2);
-    ImDrawList* list = ImGui::GetBackgroundDrawList();
     const std::string a = "A: " + (s.lighting.current.empty() ? "lamps as set" : s.lighting.current),
                       b = "B: " + s.comparison.name;
-    draw_plate(list, x - 16 - ImGui::CalcTextSize(a.c_str()).x, size.y - 84, a);
-    draw_plate(list, x + 16, size.y - 84, b);
+    draw_plate(x - 16 - ImGui::CalcTextSize(a.c_str()).x, size.y - 84, a);
+    draw_plate(x + 16, size.y - 84, b);
 }
 
 }  // namespace lw

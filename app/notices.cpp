@@ -28,10 +28,12 @@ constexpr KeyText key_texts[] = {
     {"X", "A | B"},
     {"[ ]", "darker, brighter; \\: automatic exposure"},
     {"P", "probe; click (or right click) pins it"},
-    {"F2", "screenshot: PNG as seen, EXR with the values"},
+    {"G", "calculation grid: click two opposite corners"},
+    {"F2, F3", "picture: save PNG as seen and EXR with the values; copy"},
     {"H, F1, F11", "panels, keys, full screen"},
     {"Ctrl+Q", "quit"},
-    {"gamepad", "sticks: walk, look; A B: up, down; X: fly; bumper: faster"},
+    {"gamepad", "sticks: walk, look; A B: up, down; X: fly; Y: next view;"},
+    {"", "bumper: faster; cross: places, dimmer; Start: panels"},
 };
 
 }  // namespace
@@ -55,8 +57,11 @@ void draw_keys() {
 void draw_notice(const Session& s, const std::optional<ProgressBoard::State>& baking, double now) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     if (now < s.notice.until) {
+        const ImVec2 text = ImGui::CalcTextSize(s.notice.text.c_str()), border = ImGui::GetStyle().WindowPadding;
         ImGui::SetNextWindowPos(ImVec2(size.x / 2, 14), ImGuiCond_Always, ImVec2(0.5f, 0));
-        if (ImGui::Begin("##notice", nullptr, plate)) ImGui::TextUnformatted(s.notice.text.c_str());
+        ImGui::SetNextWindowSize(ImVec2(text.x + 2 * border.x, text.y + 2 * border.y));  // fits from its first frame on
+        if (ImGui::Begin("##notice", nullptr, plate & ~ImGuiWindowFlags_AlwaysAutoResize))
+            ImGui::TextUnformatted(s.notice.text.c_str());
         ImGui::End();
     }
     if (!baking) return;

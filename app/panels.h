@@ -14,6 +14,11 @@ void draw_view_panel(Session& session);
 void draw_legend(const Session& session);
 /// Crosshair with what the probe reads, and the pins where they are in the picture.
 void draw_probe(const Session& session);
+/// The points of the calculation grids with their lux, where nothing hides them, and the corner that is being chosen.
+void draw_fields(const Session& session);
+/// The sections of the panels on grids and on the selected lamp's light distribution.
+void draw_field_section(Session& session);
+void draw_photometry_section(Session& session);
 /// Rings around the lamps that have no surface, and the name of the selected one.
 void draw_lamp_marks(const Session& session);
 /// The edge between A and B, which the mouse can drag, and their names.
@@ -24,6 +29,9 @@ void draw_reflections(const Session& session, const ReflectionReport* report);
 void draw_keys();
 /// The line told last, and the bake that runs.
 void draw_notice(const Session& session, const std::optional<ProgressBoard::State>& baking, double now);
+
+/// Text on a dark plate over the picture, its top left corner at (x, y).
+void draw_plate(float x, float y, const std::string& text, uint color = 0xfff0f0f0u);
 
 /// Where a point lies in the picture, in pixels of ImGui; none behind the eye.
 std::optional<vec2> screen_position(const Session& session, vec3 point, vec2 size);

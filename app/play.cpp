@@ -10,6 +10,7 @@
 #include "base/replaced_file.h"
 #include "file/map_file.h"
 #include "image/png.h"
+#include "scene/profile.h"
 
 namespace lw {
 namespace {
@@ -40,9 +41,7 @@ FrameTimes make_frame_of(const Device& device, Stage& stage, const Shot& shot, c
     stage.forget();
     const Clock::time_point start = Clock::now();
     for (uint i = 0; i < shot.most_samples; ++i) {
-        submit_and_wait(device, [&](vk::CommandBuffer commands) {
-            stage.record(commands, shot, look, 0, [](vk::CommandBuffer&) {});
-        });
+        submit_and_wait(device, [&](vk::CommandBuffer commands) { stage.record(commands, shot, look, 0); });
         const StageTimes pass = stage.times(0);
         times.passes.visibility_ms += pass.visibility_ms;
         times.passes.gather_ms += pass.gather_ms;
@@ -63,12 +62,32 @@ void write_timings(const std::filesystem::path& path, const std::vector<FrameTim
     file.commit();
 }
 
-void print_rate(const std::vector<FrameTimes>& frames) {
-    std::vector<double> all;
-    double sum = 0;
-    for (const FrameTimes& f : frames) all.push_back(f.all_ms), sum += f.all_ms;
-    std::printf("%zu frames, median %.1f ms, slowest %.1f ms, %.1f frames/s\n", frames.size(), median(all),
-                *std::max_element(all.begin(), all.end()), 1000 * double(frames.size()) / sum);
+double median_of(const std::vector<FrameTimes>& frames, double (*value)(const FrameTimes&)) {
+    std::vector<double> values;
+    for (const FrameTimes& f : frames) values.push_back(value(f));
+    return median(std::move(values));
+}
+
+std::string settings_text(const GatherSettings& gather, uint samples) {
+    constexpr const char* modes[] = {"exact photons", "smooth photons", "cached irradiance"};
+    std::string text = modes[gather.mode];
+    if (gather.mode != gather_mode_cached) text += ", " + std::to_string(gather.neighbours) + " photons per estimate";
+    text += ", " + std::to_string(gather.shadow_rays) + " shadow rays per emissive mesh, ";
+    return text + std::to_string(samples) + (samples == 1 ? " view per pixel" : " views per pixel");
+}
+
+void print_rate(const std::vector<FrameTimes>& frames, const PlaySettings& settings) {
+    double sum = 0, slowest = 0;
+    for (const FrameTimes& f : frames) sum += f.all_ms, slowest = std::max(slowest, f.all_ms);
+    std::printf("%s, %ux%u\n", settings_text(settings.gather, settings.samples).c_str(), settings.size.width,
+                settings.size.height);
+    std::printf("median of passes: visibility %.1f ms, gather %.1f ms, view %.1f ms\n",
+                median_of(frames, [](const FrameTimes& f) { return f.passes.visibility_ms; }),
+                median_of(frames, [](const FrameTimes& f) { return f.passes.gather_ms; }),
+                median_of(frames, [](const FrameTimes& f) { return f.passes.view_ms; }));
+    std::printf("%zu frames, median %.1f ms, slowest %.1f ms, %.1f frames/s\n", frames.size(),
+                median_of(frames, [](const FrameTimes& f) { return f.all_ms; }), slowest,
+                1000 * double(frames.size()) / sum);
 }
 
 void prepare_folder(const std::filesystem::path& folder) {
@@ -87,7 +106,8 @@ std::filesystem::path frame_name(const std::filesystem::path& folder, size_t i) 
 }  // namespace
 
 void play(const PlaySettings& settings) {
-    const World world(settings.scene);
+    const LampBook book = load_lamp_book(default_ambiances_path(settings.scene));
+    const World world(settings.scene, photometry_texts(book, settings.scene, settings.photometry));
     const Path path = load_path(settings.path);
     const std::vector<vec3> factors = chosen_factors(world.scene, settings.ambiance, {});
     const auto map = std::make_shared<const PhotonMap>(load_photon_map(settings.map, world.scene));
@@ -119,7 +139,7 @@ void play(const PlaySettings& settings) {
             write_png(frame_name(settings.frames, i), read_screen(device, stage, settings.size));
     }
     if (!settings.timings.empty()) write_timings(settings.timings, frames);
-    print_rate(frames);
+    print_rate(frames, settings);
     const std::vector<std::string> messages = device.validation_messages();
     if (!messages.empty()) throw Error("Vulkan validation: first message: " + messages[0]);
 }

@@ -11,6 +11,7 @@ struct PlaySettings {
     DeviceSettings device;
     vk::Extent2D size{960, 540};
     std::string ambiance;
+    std::vector<std::string> photometry;  // "LAMP=FILE", beside those of SCENE.ambiances.json
     GatherSettings gather;
     std::optional<float> exposure_ev;  // EV100; none: follows the picture
     uint samples = 1;                  // views averaged per frame

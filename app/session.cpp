@@ -6,9 +6,7 @@
 
 #include "app/window.h"
 #include "base/error.h"
-#include "base/replaced_file.h"
-#include "scene/camera.h"
-#include "trace/emitter.h"
+#include "photometry/photometry.h"
 
 namespace lw {
 namespace {
@@ -36,18 +34,6 @@ void record(Session& session, float seconds) {
     path.keys.push_back({session.recorded_seconds, b.position, double(b.yaw_deg), double(b.pitch_deg)});
 }
 
-Pin measured(const Session& s, const PhotonMap& map, const Hit& hit, vec3 viewer) {
-    const World& w = s.world;
-    const std::vector<vec3> weights = light_weights(w.scene, factors_now(s.lighting));
-    return {hit, viewer, measure(w.scene, w.caster, map, w.bvh, weights, hit, viewer)};
-}
-
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return result + "\"";
-}
-
 }  // namespace
 
 Session::Session(const World& w, std::filesystem::path folder)
@@ -63,6 +49,21 @@ Session::Session(const World& w, std::filesystem::path folder)
                                               lighting.book_trouble);
     bookmarks = loaded_or_empty<std::vector<Bookmark>>(
         [&] { return load_bookmarks(default_bookmarks_path(w.scene.path)); }, bookmarks_trouble);
+}
+
+Session::Session(const World& w, const Session& before) : Session(w, before.output) {
+    body = before.body;
+    walker = before.walker;
+    yfov = before.yfov;
+    recording = before.recording;
+    recorded_seconds = before.recorded_seconds;
+    lighting = before.lighting;
+    comparison = before.comparison;
+    viewing = before.viewing;
+    metering = before.metering;
+    fields = before.fields;
+    panels = before.panels;
+    notice = before.notice;
 }
 
 void tell(Session& session, const std::string& text, double seconds) {
@@ -83,6 +84,35 @@ void fade_to(Lighting& lighting, const LampBoard& board) {
     if (lighting.fade_seconds > 0) lighting.fade = Fade{from, lighting.fade_seconds, 0};
 }
 
+void save_book(Session& s, const std::string& what) {
+    const std::filesystem::path path = default_ambiances_path(s.world.scene.path);
+    if (!s.lighting.book_trouble.empty()) {
+        tell(s, s.lighting.book_trouble + "; put it right or move it away");
+        return;
+    }
+    try {
+        save_lamp_book(path, s.lighting.book);
+        tell(s, what + " saved in " + path.string());
+    } catch (const Error& failure) {
+        tell(s, failure.what());
+    }
+}
+
+void attach_file(Session& s, size_t lamp, const std::string& file) {
+    const std::string& name = s.world.scene.light_names[lamp];
+    try {
+        if (!file.empty()) read_photometry(s.world.scene.path.parent_path() / file);
+    } catch (const Error& failure) {
+        return tell(s, failure.what(), 8);
+    }
+    if (file.empty())
+        s.lighting.book.photometry.erase(name);
+    else
+        s.lighting.book.photometry[name] = file;
+    save_book(s, "light distribution of \"" + name + "\"");
+    s.reload = true;
+}
+
 bool fly_to(Session& s, size_t index) {
     const std::vector<Camera>& cameras = s.world.scene.cameras;
     if (index >= cameras.size() + s.bookmarks.size()) return false;
@@ -91,6 +121,7 @@ bool fly_to(Session& s, size_t index) {
                               : camera_of(s.bookmarks[index - cameras.size()], s.world.scene, s.yfov, s.near);
     const Walker to = walker_at(camera, s.body, s.world.around);
     s.flight = Flight{s.walker, to, s.yfov, camera.yfov};
+    s.place = int(index);
     tell(s, camera.name, 2);
     return true;
 }
@@ -166,23 +197,6 @@ Look look_of(const Session& s, bool bgr) {
     return {kind, v.exposure_ev, v.low, v.high, logarithmic, 10, s.comparison.split, bgr};
 }
 
-void measure_again(Session& s, const PhotonMap& map, bool all) {
-    const Camera camera = camera_of(s.walker, s.yfov, s.near);
-    s.metering.live.reset();
-    if (s.metering.on)
-        if (const auto hit = seen_from(s.world.scene, s.world.caster, camera.position, -camera.rotation[2]))
-            s.metering.live = measured(s, map, *hit, camera.position);
-    if (all)
-        for (Pin& pin : s.metering.pins) pin = measured(s, map, pin.hit, pin.viewer);
-}
-
-void pin_at(Session& s, const PhotonMap& map, vec2 pixel, vec2 size) {
-    const Camera camera = camera_of(s.walker, s.yfov, s.near);
-    const vec3 direction = camera_direction(camera, pixel.x, pixel.y, int(size.x), int(size.y));
-    const auto hit = seen_from(s.world.scene, s.world.caster, camera.position, direction);
-    if (hit) s.metering.pins.push_back(measured(s, map, *hit, camera.position));
-}
-
 std::filesystem::path free_name(const Session& s, const std::string& extension) {
     const std::string stem = s.world.scene.path.stem().string();
     for (int i = 1;; ++i) {
@@ -191,32 +205,6 @@ std::filesystem::path free_name(const Session& s, const std::string& extension) 
         const std::filesystem::path path = s.output / (stem + number + extension);
         std::error_code ignored;
         if (!std::filesystem::exists(path, ignored)) return path;
-    }
-}
-
-void save_pins(Session& s) {
-    const Scene& scene = s.world.scene;
-    try {
-        const std::filesystem::path path = free_name(s, "csv");
-        ReplacedFile file(path);
-        std::ostream& out = file.stream();
-        out << "pin,x m,y m,z m,illuminance lx,low lx,high lx,luminance cd/m2,material,triangle";
-        for (const std::string& name : scene.light_names) out << "," << quoted(name + " lx");
-        out << "\n";
-        for (size_t i = 0; i < s.metering.pins.size(); ++i) {
-            const Measurement& m = s.metering.pins[i].value;
-            const glm::dvec3 at = scene.origin + glm::dvec3(m.position);
-            const uint material = scene.objects[scene.triangle_objects[m.triangle]].material;
-            out << i + 1 << "," << at.x << "," << at.y << "," << at.z << "," << m.lux << ","
-                << std::max(m.lux - m.half_width_lux, 0.0f) << "," << m.lux + m.half_width_lux << "," << m.luminance
-                << "," << quoted(scene.material_names[material]) << "," << m.triangle;
-            for (const LampShare& share : m.lamps) out << "," << share.lux;
-            out << "\n";
-        }
-        file.commit();
-        tell(s, std::to_string(s.metering.pins.size()) + " pins saved in " + path.string());
-    } catch (const Error& failure) {
-        tell(s, failure.what());
     }
 }
 

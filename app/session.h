@@ -3,6 +3,7 @@
 #pragma once
 #include <optional>
 
+#include "app/fields.h"
 #include "app/lamp_board.h"
 #include "app/places.h"
 #include "app/stage.h"
@@ -21,7 +22,8 @@ struct Lighting {
     LampBoard board;
     std::optional<Fade> fade;  // from what was lit before to the board
     float fade_seconds = 1;
-    int selected = -1;  // lamp
+    int selected = -1;     // lamp
+    int scrolled_to = -1;  // lamp that the panel has brought into sight
     std::string search;
     LampBook book;
     std::string book_trouble;  // why the file beside the scene must not be overwritten, or ""
@@ -44,7 +46,8 @@ struct Viewing {
     float low = 0, high = 500;
     GatherSettings gather;
     uint most_samples = 32;
-    uint divisor = 0;  // of the resolution while moving; 0: by the time a frame takes
+    uint divisor = 0;          // of the resolution while moving; 0: by the time a frame takes
+    bool wants_error = false;  // to be told the estimated error while the view is still
     bool reflections = false;  // outlines of bright reflections of lamps
 };
 
@@ -61,21 +64,28 @@ struct Metering {
     std::vector<Pin> pins;
 };
 
+/// What is to be done with the next picture.
+enum class Wish { none, save, copy };
+
 /// A line told to the user for a few seconds.
 struct Notice {
     std::string text;
     double until = 0;  // s, Window::now()
 };
 
-struct Statistics {
+struct FrameStatistics {
     StageTimes times;
-    double frame_ms = 0;  // from one image to the next, averaged
+    double frame_ms = 0;   // from one image to the next, averaged
+    uint64_t photons = 0;  // stored in the map
     uint64_t device_bytes = 0;
     uint samples = 0;
+    std::optional<vec2> error;  // %, estimated standard error of the picture: median, 95th percentile
 };
 
 struct Session {
     Session(const World& world, std::filesystem::path output);
+    /// The same session in the same building with other lamps.
+    Session(const World& world, const Session& before);
 
     const World& world;
     std::filesystem::path output;  // folder of screenshots, probes and recorded paths
@@ -83,6 +93,7 @@ struct Session {
     Walker walker;
     float yfov, near;
     std::optional<Flight> flight;
+    int place = 0;  // jumped to last
     std::vector<Bookmark> bookmarks;
     std::string bookmarks_trouble;  // as book_trouble
     std::optional<Path> recording;
@@ -91,10 +102,12 @@ struct Session {
     Comparison comparison;
     Viewing viewing;
     Metering metering;
+    Fields fields;
     bool panels = true, keys = false, full_screen = false;
-    bool screenshot = false;  // wanted with the next frame
+    Wish picture_wish = Wish::none;
+    bool reload = false;  // lamps have got other photometric files: the scene is loaded and baked anew
     Notice notice;
-    Statistics statistics;
+    FrameStatistics statistics;
 };
 
 /// Shows a line for a while.
@@ -105,6 +118,13 @@ std::vector<vec3> factors_now(const Lighting& lighting);
 
 /// Lights the board, fading from what is lit now.
 void fade_to(Lighting& lighting, const LampBoard& board);
+
+/// Keeps ambiances, groups and photometric files beside the scene; tells that `what` is saved, or why not.
+void save_book(Session& session, const std::string& what);
+
+/// Puts a photometric file (relative to the scene's folder) on a point or spot lamp, or takes it off (""); keeps that
+/// beside the scene and asks for the scene to be loaded anew. Tells what is wrong with a file.
+void attach_file(Session& session, size_t lamp, const std::string& file);
 
 /// Flies to place `index`: the cameras of the scene, then the bookmarks. False when there is none.
 bool fly_to(Session& session, size_t index);
@@ -121,15 +141,6 @@ void advance(Session& session, const WalkInput& input, float seconds);
 /// What the frame shows.
 Shot shot_of(const Session& session, uint divisor);
 Look look_of(const Session& session, bool bgr);
-
-/// Measures again what lies under the crosshair and, when `all`, the pins.
-void measure_again(Session& session, const PhotonMap& map, bool all);
-
-/// Measures and pins what the picture shows at a pixel.
-void pin_at(Session& session, const PhotonMap& map, vec2 pixel, vec2 size);
-
-/// The pins as a table beside the other outputs; tells how it went.
-void save_pins(Session& session);
 
 /// A file in the output folder that does not exist yet: SCENE-001.EXT, SCENE-002.EXT, ...
 std::filesystem::path free_name(const Session& session, const std::string& extension);

@@ -48,7 +48,6 @@ Stage::Stage(const Device& device, const Scene& scene, std::shared_ptr<const Pho
     : device_(&device),
       map_(std::move(map)),
       resident_(device, scene, *map_, bvh),
-      lamps_set_(scene.lights.size(), vec3(1)),
       timestamps_{Timestamps(device, 4), Timestamps(device, 4)} {}
 
 void Stage::resize(vk::Extent2D size) {
@@ -72,14 +71,7 @@ bool Stage::is_finished(const Shot& shot) const {
            picture_size_ == live_->size();
 }
 
-void Stage::set_lamps(const std::vector<vec3>& factors) {
-    if (factors == lamps_set_) return;
-    resident_.set_light_factors(factors);
-    lamps_set_ = factors;
-}
-
-void Stage::record(vk::CommandBuffer& commands, const Shot& shot, const Look& look, uint slot,
-                   const std::function<void(vk::CommandBuffer&)>& flush) {
+void Stage::record(vk::CommandBuffer commands, const Shot& shot, const Look& look, uint slot) {
     const bool same = shows(shot, look.kind.view);
     const bool sharpen = same && shot.sharpens && picture_size_ != live_->size();
     const bool draws =
@@ -94,7 +86,7 @@ void Stage::record(vk::CommandBuffer& commands, const Shot& shot, const Look& lo
     if (draws) {
         live_->record_visibility(commands, frame_of_sample(shot.camera, picture_size_, samples_));
         times.write(commands, 1);
-        record_lights(commands, shot, look, flush);
+        record_lights(commands, shot, look);
         drawn_ = {shot, look.kind.view};
         ++samples_;
     } else {
@@ -107,28 +99,38 @@ void Stage::record(vk::CommandBuffer& commands, const Shot& shot, const Look& lo
     timed_[slot] = std::max(1u, live_->size().width / picture_size_.width);
 }
 
-void Stage::record_lights(vk::CommandBuffer& commands, const Shot& shot, const Look& look,
-                          const std::function<void(vk::CommandBuffer&)>& flush) {
+void Stage::record_lights(vk::CommandBuffer commands, const Shot& shot, const Look& look) {
     using Side = LiveView::Side;
-    set_lamps(shot.lamps_a);
+    constexpr uint lamps_a = 0, lamps_b = 1;
+    resident_.set_light_factors(shot.lamps_a, lamps_a);
     const Frame frame = frame_of_sample(shot.camera, picture_size_, samples_);
-    live_->record_light(commands, frame, shot.gather, Side::a);
+    live_->record_light(commands, frame, shot.gather, Side::a, lamps_a);
     if (is_inspection(look.kind.view)) {
         if (samples_ > 0) return;
         GatherSettings inspect = shot.gather;
         inspect.mode = gather_mode_inspect;
-        live_->record_light(commands, frame, inspect, Side::b);
+        live_->record_light(commands, frame, inspect, Side::b, lamps_a);
     } else if (!shot.lamps_b.empty()) {
-        flush(commands);
-        set_lamps(shot.lamps_b);
-        live_->record_light(commands, frame, shot.gather, Side::b);
-        flush(commands);
-        set_lamps(shot.lamps_a);
+        resident_.set_light_factors(shot.lamps_b, lamps_b);
+        live_->record_light(commands, frame, shot.gather, Side::b, lamps_b);
     }
 }
 
 std::vector<Glance> Stage::glance(uint slot, uint view) const {
     return timed_[slot] && views_[slot] == view ? live_->glance(slot) : std::vector<Glance>();
+}
+
+std::vector<Glance> Stage::inspect(const Shot& shot, uint view, uint slot) {
+    GatherSettings inspect = shot.gather;
+    inspect.mode = gather_mode_inspect;
+    Look look;
+    look.kind.view = view;
+    submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
+        live_->record_light(commands, frame_of_sample(shot.camera, picture_size_, 0), inspect, LiveView::Side::b);
+        live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, std::max(samples_, 1u)),
+                           slot);
+    });
+    return live_->glance(slot);
 }
 
 StageTimes Stage::times(uint slot) const {

@@ -45,10 +45,8 @@ class Stage {
     /// Throws Error when the size is beyond the device.
     void resize(vk::Extent2D size);
 
-    /// Records a frame of shot and look; samples of the same shot add up. `flush` must send the commands off and begin
-    /// anew: lamps B are set between two parts of a frame.
-    void record(vk::CommandBuffer& commands, const Shot& shot, const Look& look, uint slot,
-                const std::function<void(vk::CommandBuffer&)>& flush);
+    /// Records a frame of shot and look; samples of the same shot add up.
+    void record(vk::CommandBuffer commands, const Shot& shot, const Look& look, uint slot);
     /// The next frame starts anew, whatever it shows.
     void forget() { drawn_.reset(); }
     /// True when the next frame of this shot adds to the picture instead of starting anew.
@@ -59,6 +57,9 @@ class Stage {
     bool is_finished(const Shot& shot) const;
     /// Values of the last frame of a slot, whose commands must have finished; empty when it showed another view.
     std::vector<Glance> glance(uint slot, uint view) const;
+    /// Values of an inspecting view of what A shows, made and waited for; the slot's next frame must follow. Not while
+    /// B is shown.
+    std::vector<Glance> inspect(const Shot& shot, uint view, uint slot);
     /// Times of the last frame of a slot; its commands must have finished.
     StageTimes times(uint slot) const;
     /// Values of what A shows (Rendering::image); waits for the device.
@@ -71,9 +72,7 @@ class Stage {
         Shot shot;
         uint inspected_view = view_shaded;
     };
-    void set_lamps(const std::vector<vec3>& factors);
-    void record_lights(vk::CommandBuffer& commands, const Shot& shot, const Look& look,
-                       const std::function<void(vk::CommandBuffer&)>& flush);
+    void record_lights(vk::CommandBuffer commands, const Shot& shot, const Look& look);
 
     const Device* device_;
     std::shared_ptr<const PhotonMap> map_;
@@ -82,7 +81,6 @@ class Stage {
     std::optional<Drawn> drawn_;
     vk::Extent2D picture_size_;
     uint samples_ = 0;
-    std::vector<vec3> lamps_set_;
     std::array<Timestamps, 2> timestamps_;
     std::array<uint, 2> views_{};  // of each slot's frame
     std::array<uint, 2> timed_{};  // divisor of each slot's frame, 0: none yet

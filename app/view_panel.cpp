@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/metering.h"
 #include "app/panels.h"
+#include "base/memory.h"
 
 namespace lw {
 namespace {
@@ -75,7 +77,7 @@ void draw_comparison(Session& s) {
         c.on = true, s.viewing.view = view_relative_difference, s.viewing.auto_range = true;
 }
 
-void draw_quality(Viewing& v) {
+void draw_quality(Viewing& v, const FrameStatistics& statistics) {
     constexpr const char* modes[] = {"exact: k nearest photons", "smooth: photons, one pass",
                                      "cached: irradiance of the bake"};
     int mode = int(v.gather.mode);
@@ -92,6 +94,15 @@ void draw_quality(Viewing& v) {
     int divisor = int(v.divisor);
     ImGui::SetNextItemWidth(110);
     if (ImGui::Combo("pixels in motion", &divisor, "automatic\0all\0half\0third\0quarter\0")) v.divisor = uint(divisor);
+    if (statistics.error)
+        ImGui::Text("estimated error %.1f %%, 95th percentile %.1f %%", double(statistics.error->x),
+                    double(statistics.error->y));
+    else
+        ImGui::TextDisabled("estimated error: when still, without A | B");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip(
+            "standard error of the photons' part of the illuminance at the setting above;\n"
+            "the cached mode has less: it averages neighbouring estimates");
 }
 
 void draw_places(Session& s) {
@@ -127,12 +138,14 @@ void draw_pins(Session& s) {
 }
 
 void draw_statistics(const Session& s) {
-    const Statistics& t = s.statistics;
+    const FrameStatistics& t = s.statistics;
     ImGui::Text("%.1f frames/s, %.1f ms", t.frame_ms > 0 ? 1000 / t.frame_ms : 0, t.frame_ms);
     ImGui::Text("visibility %.2f ms, gather %.2f ms,\nview %.2f ms", t.times.visibility_ms, t.times.gather_ms,
                 t.times.view_ms);
     ImGui::Text("%u of %u views summed, pixels 1/%u", t.samples, s.viewing.most_samples, t.times.divisor);
-    ImGui::Text("%.0f MiB on the device", double(t.device_bytes) / 1048576);
+    ImGui::Text("%s photons", std::to_string(t.photons).c_str());
+    ImGui::Text("%s on the device,\n%s in the program", bytes_text(t.device_bytes).c_str(),
+                bytes_text(resident_memory()).c_str());
 }
 
 }  // namespace
@@ -150,11 +163,15 @@ void draw_view_panel(Session& s) {
         if (section("Exposure", true)) draw_exposure(s.viewing);
         if (section("Compare", false)) draw_comparison(s);
         if (section("Probe", true)) draw_pins(s);
+        if (section("Calculation grids", false)) draw_field_section(s);
         if (section("Places", false)) draw_places(s);
-        if (section("Quality", false)) draw_quality(s.viewing);
+        s.viewing.wants_error = section("Quality", false);
+        if (s.viewing.wants_error) draw_quality(s.viewing, s.statistics);
         if (section("Statistics", true)) draw_statistics(s);
         ImGui::Separator();
-        if (ImGui::Button("screenshot (F2)")) s.screenshot = true;
+        if (ImGui::Button("save (F2)")) s.picture_wish = Wish::save;
+        ImGui::SameLine();
+        if (ImGui::Button("copy (F3)")) s.picture_wish = Wish::copy;
         ImGui::SameLine();
         if (ImGui::Button("keys (F1)")) s.keys = !s.keys;
     }

@@ -1,8 +1,12 @@
-// The window's loop: events, a step of the walk, a frame.
+// The walkthrough from its first line to its last: the scene, the window, the map, the frames; a scene that is loaded
+// anew with other photometric files, a device that is lost.
 #pragma once
-#include "app/baking.h"
-#include "app/overlay.h"
-#include "app/session.h"
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gpu/device.h"
+#include "shaders/types.h"
 
 namespace lw {
 
@@ -12,7 +16,8 @@ struct WalkthroughSettings {
     DeviceSettings device;
     vk::Extent2D size{1280, 720};
     std::string camera, ambiance;
-    uint64_t photons = 1'000'000;  // of a map that must be baked
+    std::vector<std::string> photometry;  // "LAMP=FILE", beside those of SCENE.ambiances.json
+    uint64_t photons = 1'000'000;         // of a map that must be baked
     bool vsync = true;
 };
 

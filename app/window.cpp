@@ -3,6 +3,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace lw {
@@ -16,6 +18,19 @@ std::string last_glfw_error() {
 
 Window& window_of(GLFWwindow* handle) { return *static_cast<Window*>(glfwGetWindowUserPointer(handle)); }
 
+std::optional<Gamepad> first_gamepad() {
+    GLFWgamepadstate state;
+    for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+        if (!glfwJoystickIsGamepad(id) || !glfwGetGamepadState(id, &state)) continue;
+        Gamepad pad;
+        std::copy_n(state.axes, pad.axes.size(), pad.axes.begin());
+        std::transform(state.buttons, state.buttons + pad.buttons.size(), pad.buttons.begin(),
+                       [](unsigned char button) { return button == GLFW_PRESS; });
+        return pad;
+    }
+    return std::nullopt;
+}
+
 /// GLFW counts as long as any window lives.
 void start_glfw() {
     glfwInitHint(GLFW_JOYSTICK_HAT_BUTTONS, GLFW_FALSE);
@@ -23,6 +38,18 @@ void start_glfw() {
 }
 
 }  // namespace
+
+std::vector<int> newly_pressed(const Gamepad& now, const Gamepad& before) {
+    std::vector<int> pressed;
+    for (size_t i = 0; i < now.buttons.size(); ++i)
+        if (now.buttons[i] && !before.buttons[i]) pressed.push_back(int(i));
+    return pressed;
+}
+
+Click click_at(double x, double y, vk::Extent2D units, vk::Extent2D pixels, bool right) {
+    return {float(x * pixels.width / std::max(units.width, 1u)), float(y * pixels.height / std::max(units.height, 1u)),
+            right};
+}
 
 Window::Window(const std::string& title, vk::Extent2D size) {
     start_glfw();
@@ -38,21 +65,26 @@ Window::Window(const std::string& title, vk::Extent2D size) {
     glfwSetWindowUserPointer(window_, this);
     static const auto on_key = [](GLFWwindow* w, int key, int, int action, int mods) {
         if (action == GLFW_PRESS)
-            window_of(w).events_.keys.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
+            window_of(w).events_.actions.emplace_back(
+                KeyPress{key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
     };
     static const auto on_button = [](GLFWwindow* w, int button, int action, int) {
         if (action != GLFW_PRESS || button > GLFW_MOUSE_BUTTON_RIGHT) return;
-        double x = 0, y = 0;
-        int width = 1, height = 1;
-        glfwGetCursorPos(w, &x, &y);
+        Window& window = window_of(w);
+        int width = 0, height = 0;
         glfwGetWindowSize(w, &width, &height);
-        const vk::Extent2D pixels = window_of(w).size();
-        window_of(w).events_.clicks.push_back({float(x * pixels.width / std::max(width, 1)),
-                                               float(y * pixels.height / std::max(height, 1)),
-                                               button == GLFW_MOUSE_BUTTON_RIGHT});
+        window.events_.actions.emplace_back(click_at(window.pointer_x_, window.pointer_y_,
+                                                     {uint32_t(width), uint32_t(height)}, window.size(),
+                                                     button == GLFW_MOUSE_BUTTON_RIGHT));
+    };
+    static const auto on_move = [](GLFWwindow* w, double x, double y) {
+        window_of(w).pointer_x_ = x, window_of(w).pointer_y_ = y;
     };
     glfwSetKeyCallback(
         window_, [](GLFWwindow* w, int key, int code, int action, int mods) { on_key(w, key, code, action, mods); });
+    glfwSetScrollCallback(
+        window_, [](GLFWwindow* w, double, double y) { window_of(w).events_.actions.emplace_back(Scroll{float(y)}); });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { on_move(w, x, y); });
     glfwSetMouseButtonCallback(
         window_, [](GLFWwindow* w, int button, int action, int mods) { on_button(w, button, action, mods); });
 }
@@ -84,6 +116,10 @@ Events Window::poll(double wait_seconds) {
     Events events;
     std::swap(events, events_);
     events.size = size();
+    events.gamepad = first_gamepad();
+    const Gamepad pad = events.gamepad.value_or(Gamepad{});
+    events.buttons = newly_pressed(pad, gamepad_);
+    gamepad_ = pad;
     double x = 0, y = 0;
     glfwGetCursorPos(window_, &x, &y);
     if (captured_ && has_last_) events.mouse_x = float(x - last_x_), events.mouse_y = float(y - last_y_);

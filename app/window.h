@@ -1,6 +1,9 @@
 // The window and what the user does in it, through GLFW. Knows keys and pixels, nothing of scenes.
 #pragma once
+#include <array>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "gpu/device.h"
@@ -20,12 +23,31 @@ struct KeyPress {
     bool shift, control;
 };
 
+/// A turn of the mouse wheel, away from the user positive.
+struct Scroll {
+    float turns;
+};
+
+/// A gamepad in the layout of GLFW: indices GLFW_GAMEPAD_AXIS_*, GLFW_GAMEPAD_BUTTON_*.
+struct Gamepad {
+    std::array<float, 6> axes{};  // -1 to 1, right and down are positive
+    std::array<bool, 15> buttons{};
+};
+
+/// The buttons of `now` that were up in `before`.
+std::vector<int> newly_pressed(const Gamepad& now, const Gamepad& before);
+
+/// Where in a picture of `pixels` the pointer is, from its place in a window of `units`: on a fine screen a unit has
+/// several pixels.
+Click click_at(double x, double y, vk::Extent2D units, vk::Extent2D pixels, bool right);
+
 /// What happened since the last poll.
 struct Events {
-    std::vector<KeyPress> keys;
-    std::vector<Click> clicks;
-    vk::Extent2D size;               // of the picture, pixels; 0 while minimised
-    float mouse_x = 0, mouse_y = 0;  // moved, in screen units; only while captured
+    std::vector<std::variant<KeyPress, Click, Scroll>> actions;  // in their order: a frame may take long
+    std::optional<Gamepad> gamepad;                              // the first there is
+    std::vector<int> buttons;                                    // of the gamepad, newly pressed
+    vk::Extent2D size;                                           // of the picture, pixels; 0 while minimised
+    float mouse_x = 0, mouse_y = 0;                              // moved, in screen units; only while captured
 };
 
 class Window {
@@ -60,8 +82,10 @@ class Window {
     GLFWwindow* window_ = nullptr;
     Events events_;
     bool captured_ = false;
+    double pointer_x_ = 0, pointer_y_ = 0;  // by the last event: when a click is handled the pointer may be elsewhere
     double last_x_ = 0, last_y_ = 0;
     bool has_last_ = false;
+    Gamepad gamepad_;                          // at the last poll
     int windowed_[4] = {100, 100, 1280, 720};  // place and size before full screen
 };
 

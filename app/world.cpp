@@ -5,21 +5,26 @@
 #include "base/error.h"
 #include "file/map_file.h"
 #include "scene/gltf.h"
+#include "scene/profile.h"
 #include "trace/build_bvh.h"
 
 namespace lw {
 namespace {
 
-Scene load_and_warn(const std::filesystem::path& path) {
-    Scene scene = load_gltf(path);
+Scene load_and_warn(const std::filesystem::path& path, const std::vector<std::string>& photometry) {
+    Scene scene = with_photometry(load_gltf(path), photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     return scene;
 }
 
 }  // namespace
 
-World::World(const std::filesystem::path& path)
-    : scene(load_and_warn(path)), caster(scene), bvh(build_bvh(scene)), around(scene, caster) {}
+World::World(const std::filesystem::path& path, const std::vector<std::string>& photometry)
+    : scene(load_and_warn(path, photometry)),
+      caster(scene),
+      bvh(build_bvh(scene)),
+      around(scene, caster),
+      luminaires(luminaires_of(scene, photometry)) {}
 
 std::shared_ptr<const PhotonMap> try_load_map(const std::filesystem::path& path, const Scene& scene,
                                               std::string& reason) {

@@ -1,7 +1,9 @@
 // The building as the walkthrough needs it: the scene, rays through it, what bodies bump into.
 #pragma once
+#include <map>
 #include <memory>
 
+#include "app/luminaire.h"
 #include "app/surroundings.h"
 #include "maps/photon_map.h"
 #include "scene/bvh.h"
@@ -9,13 +11,15 @@
 namespace lw {
 
 struct World {
-    /// Loads the scene, prints its warnings. Throws Error as load_gltf().
-    explicit World(const std::filesystem::path& path);
+    /// Loads the scene with photometric files ("LAMP=FILE") on its lamps, prints its warnings. Throws Error as
+    /// load_gltf() and with_photometry().
+    World(const std::filesystem::path& path, const std::vector<std::string>& photometry);
 
     Scene scene;
     RayCaster caster;
     Bvh bvh;
     Surroundings around;
+    std::map<size_t, Luminaire> luminaires;  // of lamps with a light distribution
 };
 
 /// The map at `path`, or none with the reason ("" when there is just no file): missing, stale or damaged.

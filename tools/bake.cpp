@@ -19,7 +19,6 @@
 #include "maps/build.h"
 #include "number_option.h"
 #include "photons/shoot.h"
-#include "scene/gltf.h"
 #include "scene/profile.h"
 
 namespace {
@@ -101,7 +100,7 @@ void bake(const Options& options) {
     const std::filesystem::path output =
         options.output.empty() ? lw::default_map_path(options.scene) : std::filesystem::path(options.output);
     PhaseClock clock;
-    const lw::Scene scene = lw::with_photometry(lw::load_gltf(options.scene), options.photometry);
+    const lw::Scene scene = lw::load_scene(options.scene, options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     lw::check_can_create(output, {options.scene});
     lw::check_bake_fits(scene, settings,

@@ -19,7 +19,6 @@
 #include "measure/table.h"
 #include "photons/shoot.h"
 #include "scene/camera.h"
-#include "scene/gltf.h"
 #include "scene/profile.h"
 #include "scene/recorded_path.h"
 
@@ -153,7 +152,7 @@ void report_reflections(const Options& o, const lw::Scene& scene, const lw::RayC
 void measure(Options& o) {
     const lw::ThreadLimit limit(o.threads);
     o.survey.error = o.error_percent / 100;
-    const lw::Scene scene = lw::with_photometry(lw::load_gltf(o.scene), o.photometry);
+    const lw::Scene scene = lw::load_scene(o.scene, o.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::vector<lw::SensorSet> sets = sets_of(o, scene);
     std::vector<lw::PowerSetting> ambiances = ambiances_of(o, scene);

@@ -12,7 +12,6 @@
 #include "number_option.h"
 #include "scene/ambiance.h"
 #include "scene/camera.h"
-#include "scene/gltf.h"
 #include "scene/profile.h"
 #include "trace/reference.h"
 
@@ -47,7 +46,7 @@ void render(Options& options) {
     parse_size(options.size, options.settings.width, options.settings.height);
     if (options.settings.samples == 0)
         options.settings.samples = options.settings.seconds > 0 || options.settings.error > 0 ? 1u << 20 : 256;
-    const lw::Scene scene = lw::with_photometry(lw::load_gltf(options.scene), options.photometry);
+    const lw::Scene scene = lw::load_scene(options.scene, options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     lw::check_can_create(options.output, {options.scene});
     const lw::RayCaster caster(scene);

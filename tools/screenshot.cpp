@@ -15,7 +15,6 @@
 #include "number_option.h"
 #include "scene/ambiance.h"
 #include "scene/camera.h"
-#include "scene/gltf.h"
 #include "scene/profile.h"
 #include "trace/build_bvh.h"
 
@@ -105,7 +104,7 @@ void print_lists(const Options& o) {
     if (o.list_devices)
         for (const std::string& name : lw::device_names()) std::cout << name << "\n";
     if (!o.list_cameras && !o.list_lights) return;
-    const lw::Scene scene = lw::with_photometry(lw::load_gltf(o.scene), o.photometry);
+    const lw::Scene scene = lw::load_scene(o.scene, o.photometry);
     if (o.list_cameras)
         for (const lw::Camera& camera : scene.cameras) std::cout << camera.name << "\n";
     if (o.list_lights)
@@ -135,7 +134,7 @@ void refuse_validation_messages(const lw::Device& device) {
 }
 
 void take_screenshot(const Options& o) {
-    const lw::Scene scene = lw::with_photometry(lw::load_gltf(o.scene), o.photometry);
+    const lw::Scene scene = lw::load_scene(o.scene, o.photometry);
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
     const lw::Camera& camera = lw::find_camera(scene, o.camera);
     const std::vector<lw::vec3> factors = lw::chosen_factors(scene, o.ambiance, o.powers);

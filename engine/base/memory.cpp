@@ -47,6 +47,17 @@ uint64_t available_in_groups() {
 
 uint64_t available_memory() { return std::min(available_in_system(), available_in_groups()); }
 
+uint64_t resident_memory() {
+    std::ifstream stream("/proc/self/status");
+    std::string name, unit;
+    while (stream >> name) {
+        uint64_t kibibytes = 0;
+        if (name == "VmRSS:" && stream >> kibibytes) return kibibytes * 1024;
+        std::getline(stream, unit);
+    }
+    return 0;
+}
+
 std::string bytes_text(uint64_t bytes) {
     char text[32];
     if (bytes >= 1'000'000'000)

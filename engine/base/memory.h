@@ -9,6 +9,9 @@ namespace lw {
 /// leaves when that is less. UINT64_MAX when the system does not tell.
 uint64_t available_memory();
 
+/// Bytes of memory that this process holds at the moment; 0 when the system does not tell.
+uint64_t resident_memory();
+
 /// "12 MB", "3.4 GB": powers of ten.
 std::string bytes_text(uint64_t bytes);
 

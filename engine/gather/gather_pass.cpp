@@ -32,14 +32,14 @@ ShaderConstants constants_for(const Resident& resident, const GatherSettings& se
 
 }  // namespace
 
-Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings) {
+Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps) {
     frame.neighbours = std::max(1u, settings.neighbours);
     frame.max_radius = resident.max_radius();
     frame.inverse_flux_scale = resident.inverse_flux_scale();
     frame.ray_epsilon = resident.ray_epsilon();
     frame.scene_size = resident.scene_size();
     frame.shadow_rays = settings.shadow_rays;
-    frame.inverse_irradiance_scale = resident.inverse_irradiance_scale();
+    frame.inverse_irradiance_scale = resident.inverse_irradiance_scale(lamps);
     frame.triangle_limit = resident.triangle_count();
     frame.following = pack_following({0, 0, 0, std::clamp(settings.paths, 1u, most_paths)});
     return frame;
@@ -68,8 +68,8 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
     has_branch_[branch_through] = constants[constant_looks_through];
 }
 
-void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture) const {
-    const vk::DescriptorSet sets[] = {resident_->descriptors().handle(), picture.descriptors().handle()};
+void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps) const {
+    const vk::DescriptorSet sets[] = {resident_->descriptors(lamps).handle(), picture.descriptors().handle()};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
     commands.pushConstants<Frame>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, frame);
     if (rays_ || follow_) empty_lists(commands, picture, ray_words_ + (follow_ ? branch_count : 0));

@@ -6,8 +6,8 @@
 
 namespace lw {
 
-/// The push constants of a view with what its passes need of the scene and the settings.
-Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings);
+/// The push constants of a view with what its passes need of the scene, its lamps at a setting, and the settings.
+Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps = 0);
 
 class GatherPass {
   public:
@@ -15,8 +15,8 @@ class GatherPass {
     GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings);
     /// Reads the visibility texture, writes the picture; for compute shaders and copies after a barrier.
     void record(vk::CommandBuffer commands, const Frame& frame) const { record(commands, frame, *picture_); }
-    /// The same into another picture of the same visibility texture.
-    void record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture) const;
+    /// The same into another picture of the same visibility texture, with the lamps at one of their settings.
+    void record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps = 0) const;
 
   private:
     void empty_lists(vk::CommandBuffer commands, const Picture& picture, uint lists) const;

@@ -31,7 +31,8 @@ GatherPass& LiveView::pass_for(const GatherSettings& settings) {
     return *pass;
 }
 
-void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side) {
+void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
+                            uint lamps) {
     stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
     GatherSettings gather = settings;
     Frame sample = frame;
@@ -39,7 +40,7 @@ void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, cons
         if (frame.sample_index == 0) gather.followed_roughness = std::sqrt(smallest_alpha);
         if (frame.sample_index == 1) sample.sample_index = 0, sample.sample_weight *= 2;  // in the place of the first
     }
-    pass_for(gather).record(commands, with_gather(sample, *resident_, gather), side == Side::a ? a_ : b_);
+    pass_for(gather).record(commands, with_gather(sample, *resident_, gather, lamps), side == Side::a ? a_ : b_, lamps);
 }
 
 void LiveView::record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {

@@ -25,8 +25,10 @@ class LiveView {
     void record_visibility(vk::CommandBuffer commands, const Frame& frame) const;
     /// Records the light of one sample into a picture: frame.sample_index 0 overwrites, others are added. For a running
     /// sum give every frame the sample_weight 1. Sample 0, all there is in motion, follows the lobes of mirrors alone; sample
-    /// 1 follows all and replaces it in the sum. Throws Error for too many neighbours of the exact mode.
-    void record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side);
+    /// 1 follows all and replaces it in the sum. `lamps`: setting of Resident::set_light_factors(). Throws Error for too
+    /// many neighbours of the exact mode.
+    void record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
+                      uint lamps = 0);
     /// Records the screen picture, and the glance of frame slot 0 or 1. Afterwards screen() may be copied.
     void record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot);
     /// sRGB codes of the last view, 4 bytes a pixel.

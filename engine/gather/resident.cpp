@@ -104,7 +104,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
       inverse_flux_scale_(1.0f / map.flux_scale),
       ray_epsilon_(scene.ray_epsilon()),
       scene_size_(scene.size()),
-      descriptors_(device, scene_bindings()) {
+      descriptors_{DescriptorSet(device, scene_bindings()), DescriptorSet(device, scene_bindings())} {
     if (scene.triangles.size() > 0xffffffffu / 3u)
         throw Error(scene.path.string() + ": more than " + std::to_string(0xffffffffu / 3u) + " triangles");
     if (!map.triangle_maps.empty() && map.triangle_maps.size() != map.sides_per_triangle() * scene.triangles.size())
@@ -118,9 +118,6 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
-    lamp_powers_ = Buffer(device, std::max<size_t>(1, scene.lights.size()) * sizeof(LampPower), "powers of lamps");
-    views_.push_back(view_as_texels(device, lamp_powers_, vk::Format::eR32G32B32A32Sfloat));
-    descriptors_.set_texels(binding_lamp_powers, *views_.back());
     set_light_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
 }
 
@@ -216,8 +213,6 @@ void Resident::upload_map(const PhotonMap& map) {
     upload_texels<uint>(binding_coverage, word, map.coverage, "coverage");
     upload_texels<uint>(binding_cell_words, word, cells_ ? cells_->words() : std::vector<uint>(), "cells");
     upload_texels<uvec4>(binding_shadow_masks, four, cells_ ? cells_->masks() : std::vector<uvec4>(), "shadow masks");
-    upload_texels<uvec4>(binding_cell_light, four, std::vector<uvec4>(map.coverage.size()), "light of cells");
-    cell_light_ = buffers_.size() - 1;
 }
 
 void Resident::upload_direct(const Scene& scene, const Bvh& bvh) {
@@ -236,7 +231,7 @@ void Resident::upload_records(uint binding, std::span<const T> values, const std
         throw Error(device_->name() + ": " + std::to_string(values.size()) + " " + what +
                     ", one buffer holds at most " + std::to_string(most));
     buffers_.push_back(upload(*device_, values, what));
-    descriptors_.set_buffer(binding, buffers_.back());
+    for (const DescriptorSet& set : descriptors_) set.set_buffer(binding, buffers_.back());
 }
 
 uint texel_bytes(vk::Format format) {
@@ -260,7 +255,7 @@ void Resident::upload_texels(uint binding, vk::Format format, std::span<const T>
                     mebibytes(uint64_t(device_->limits().maxTexelBufferElements) * texel_bytes(format)));
     buffers_.push_back(upload(*device_, values, what));
     views_.push_back(view_as_texels(*device_, buffers_.back(), format));
-    descriptors_.set_texels(binding, *views_.back());
+    for (const DescriptorSet& set : descriptors_) set.set_texels(binding, *views_.back());
 }
 
 template <class T>
@@ -274,37 +269,56 @@ void Resident::upload_chunks(uint binding, vk::Format format, std::span<const T>
         const size_t first = std::min(values.size(), i * chunk);
         buffers_.push_back(upload(*device_, values.subspan(first, std::min(chunk, values.size() - first)), what));
         views_.push_back(view_as_texels(*device_, buffers_.back(), format));
-        descriptors_.set_texels(binding, *views_.back(), i);
+        for (const DescriptorSet& set : descriptors_) set.set_texels(binding, *views_.back(), i);
     }
-    for (uint i = count; i < most_chunks; ++i) descriptors_.set_texels(binding, *views_.back(), i);  // never read
+    for (const DescriptorSet& set : descriptors_)
+        for (uint i = count; i < most_chunks; ++i) set.set_texels(binding, *views_.back(), i);  // never read
 }
 
-void Resident::set_light_factors(std::span<const float> factors) {
-    set_light_factors(std::vector<vec3>(factors.begin(), factors.end()));
+void Resident::set_light_factors(std::span<const float> factors, uint setting) {
+    set_light_factors(std::vector<vec3>(factors.begin(), factors.end()), setting);
 }
 
-void Resident::set_light_factors(std::span<const vec3> factors) {
+void Resident::set_light_factors(std::span<const vec3> factors, uint setting) {
     assert(factors.size() == scene_->lights.size());
+    Lamps& lamps = lamps_[setting];
+    const bool first = lamps.powers.size() == 0;
+    if (!first && std::equal(factors.begin(), factors.end(), lamps.factors.begin())) return;
+    if (first) make_lamps(setting);
+    lamps.factors.assign(factors.begin(), factors.end());
     std::vector<LampPower> powers;
     std::vector<vec3> weights;
     for (size_t i = 0; i < factors.size(); ++i) {
         weights.push_back(scene_->lights[i].intensity * factors[i]);
         powers.push_back({vec4(weights[i], 0), vec4(factors[i], 0)});
     }
-    write_cells(weights);
-    write_bytes(*device_, lamp_powers_, powers.data(), powers.size() * sizeof(LampPower));
+    write_cells(lamps, weights);
+    write_bytes(*device_, lamps.powers, powers.data(), powers.size() * sizeof(LampPower));
 }
 
-void Resident::write_cells(std::span<const vec3> weights) {
+void Resident::make_lamps(uint setting) {
+    Lamps& lamps = lamps_[setting];
+    const size_t lights = std::max<size_t>(1, scene_->lights.size()), cells = cells_ ? map_->coverage.size() : 0;
+    lamps.powers = Buffer(*device_, lights * sizeof(LampPower), "powers of lamps");
+    lamps.cells = cells > 0 ? Buffer(*device_, cells * sizeof(uvec4), "light of cells")
+                            : upload(*device_, std::span<const uvec4>(), "light of cells");
+    views_.push_back(view_as_texels(*device_, lamps.powers, vk::Format::eR32G32B32A32Sfloat));
+    descriptors_[setting].set_texels(binding_lamp_powers, *views_.back());
+    views_.push_back(view_as_texels(*device_, lamps.cells, vk::Format::eR32G32B32A32Uint));
+    descriptors_[setting].set_texels(binding_cell_light, *views_.back());
+}
+
+void Resident::write_cells(Lamps& lamps, std::span<const vec3> weights) const {
     if (!cells_) return;
     std::vector<uvec4> light;
-    inverse_irradiance_scale_ = 1 / cells_->sum(weights, light);
-    write_bytes(*device_, buffers_[cell_light_], light.data(), light.size() * sizeof(uvec4));
+    lamps.inverse_irradiance_scale = 1 / cells_->sum(weights, light);
+    write_bytes(*device_, lamps.cells, light.data(), light.size() * sizeof(uvec4));
 }
 
 uint64_t Resident::bytes() const {
-    uint64_t sum = lamp_powers_.size();
+    uint64_t sum = 0;
     for (const Buffer& buffer : buffers_) sum += buffer.size();
+    for (const Lamps& lamps : lamps_) sum += lamps.powers.size() + lamps.cells.size();
     return sum;
 }
 

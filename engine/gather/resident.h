@@ -31,12 +31,14 @@ class Resident {
     Resident(const Device&, const Scene&, PhotonMap&&, const Bvh& = {},
              ResidentSettings = {}) = delete;  // would not outlive it
 
-    /// Dims the lights: one factor per light of the scene, >= 0, or one per channel.
-    void set_light_factors(std::span<const float> factors);
-    void set_light_factors(std::span<const vec3> factors);
+    /// Dims the lights: one factor per light of the scene, >= 0, or one per channel. Setting 0 or 1: two of them lie on
+    /// the device, so that one frame can show both; the second takes memory from its first use on. The same factors
+    /// again cost nothing.
+    void set_light_factors(std::span<const float> factors, uint setting = 0);
+    void set_light_factors(std::span<const vec3> factors, uint setting = 0);
 
     const Scene& scene() const { return *scene_; }
-    const DescriptorSet& descriptors() const { return descriptors_; }
+    const DescriptorSet& descriptors(uint setting = 0) const { return descriptors_[setting]; }
     /// Specialization constants of the scene; those of the gather are left to the pass.
     const ShaderConstants& constants() const { return constants_; }
     /// The least roughness of a surface whose lobe could be followed by rays; 1: there is none.
@@ -53,7 +55,7 @@ class Resident {
     float max_radius() const { return max_radius_; }    // m
     float ray_epsilon() const { return ray_epsilon_; }  // m
     float scene_size() const { return scene_size_; }    // m
-    float inverse_irradiance_scale() const { return inverse_irradiance_scale_; }
+    float inverse_irradiance_scale(uint setting = 0) const { return lamps_[setting].inverse_irradiance_scale; }
     float inverse_flux_scale() const { return inverse_flux_scale_; }
     uint64_t bytes() const;  // GPU memory of all buffers
 
@@ -63,7 +65,14 @@ class Resident {
     void upload_corners(const Scene& scene);
     void upload_map(const PhotonMap& map);
     void upload_direct(const Scene& scene, const Bvh& bvh);
-    void write_cells(std::span<const vec3> weights);
+    /// The lamps at one setting: their powers, and the light of the cells at these.
+    struct Lamps {
+        std::vector<vec3> factors;
+        Buffer powers, cells;
+        float inverse_irradiance_scale = 1;
+    };
+    void make_lamps(uint setting);
+    void write_cells(Lamps& lamps, std::span<const vec3> weights) const;
     template <class T>
     void upload_records(uint binding, std::span<const T> values, const std::string& what);
     template <class T>
@@ -83,13 +92,11 @@ class Resident {
     float ray_epsilon_;
     float scene_size_;
     float narrowest_lobe_ = 1;
-    DescriptorSet descriptors_;
+    std::array<DescriptorSet, 2> descriptors_;
     std::vector<Buffer> buffers_;
     std::vector<vk::UniqueBufferView> views_;
-    Buffer lamp_powers_;
     std::optional<CellLight> cells_;
-    size_t cell_light_ = 0;  // index of its buffer
-    float inverse_irradiance_scale_ = 1;
+    std::array<Lamps, 2> lamps_;
 };
 
 }  // namespace lw

@@ -17,9 +17,9 @@ void submit_and_wait(const Device& device, const std::function<void(vk::CommandB
     if (d.waitForFences(*fence, true, UINT64_MAX) != vk::Result::eSuccess)
         throw Error(device.name() + ": does not finish its work");
 } catch (const vk::DeviceLostError&) {
-    throw Error(device.name() +
-                ": the device was lost (a driver's time limit, or it was unplugged); try fewer --samples "
-                "or a smaller picture");
+    throw DeviceLost(device.name() +
+                     ": the device was lost (a driver's time limit, or it was unplugged); try fewer --samples "
+                     "or a smaller picture");
 } catch (const vk::SystemError& failure) {
     throw Error(device.name() + ": cannot do its work: " + failure.what());
 }

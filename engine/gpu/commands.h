@@ -2,11 +2,18 @@
 #pragma once
 #include <functional>
 
+#include "base/error.h"
 #include "gpu/device.h"
 
 namespace lw {
 
-/// Records commands with `record`, submits them and waits until they are done.
+/// The device is gone; what lies on it must be made anew on another.
+class DeviceLost : public Error {
+  public:
+    using Error::Error;
+};
+
+/// Records commands with `record`, submits them and waits until they are done. Throws DeviceLost.
 void submit_and_wait(const Device& device, const std::function<void(vk::CommandBuffer)>& record);
 
 /// All memory written in stage `from` is visible to stage `to`.

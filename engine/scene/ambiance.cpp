@@ -93,6 +93,10 @@ LampBook load_lamp_book(const std::filesystem::path& path) {
     each_entry(file, "groups", where, [&](const std::string& name, const Json& value) {
         book.groups[name] = group_from(value, where + ": group \"" + name + "\"");
     });
+    each_entry(file, "photometry", where, [&](const std::string& name, const Json& value) {
+        if (!value.is_string()) fail(where, "photometry: lamp \"" + name + "\": must be the name of a file");
+        book.photometry[name] = value.get<std::string>();
+    });
     return book;
 }
 
@@ -109,6 +113,7 @@ void save_lamp_book(const std::filesystem::path& path, const LampBook& book) {
         }
     }
     for (const auto& [name, lamps] : book.groups) file["groups"][name] = lamps;
+    if (!book.photometry.empty()) file["photometry"] = book.photometry;
     write_json(path, file);
 }
 

@@ -2,10 +2,11 @@
 // hand.
 //   { "ambiances": { "Evening": { "Pendant": 0.4, "Desk": { "factor": 1, "kelvin": 2700 },
 //                                 "Lounge": { "factor": 1.2, "color": [1, 0.8, 0.6] } } },
-//     "groups": { "Ceiling": ["Pendant", "Spot"] } }
+//     "groups": { "Ceiling": ["Pendant", "Spot"] },
+//     "photometry": { "Spot": "files/downlight.ies" } }
 // A factor multiplies the power the lamp has in the scene file; a color is a filter, linear Rec.709, 1 passes all;
 // kelvin gives the lamp the colour of a black body at its own luminance (scene/profile.h).
-// Lamps that an ambiance does not name keep the power of the scene file.
+// Lamps that an ambiance does not name keep the power of the scene file. Photometric files are beside the JSON file.
 #pragma once
 #include <map>
 #include <string>
@@ -27,6 +28,7 @@ using Ambiance = std::map<std::string, LampSetting>;  // by the lamp's name
 struct LampBook {
     std::map<std::string, Ambiance> ambiances;
     std::map<std::string, std::vector<std::string>> groups;  // names of lamps
+    std::map<std::string, std::string> photometry;           // lamp -> file, relative to the folder of the scene
 };
 
 /// SCENE.glb -> SCENE.ambiances.json.

@@ -24,7 +24,10 @@ TEST(Play, MakesThePicturesOfTheScreenshotProgramAndATableOfTimes) {
         run("", {cornell(), map, "--play", folder / "path.json", "--frames", folder / "frames", "--timings",
                  folder / "times.csv", "--size", "64x48", "--exposure", "5", "--validation", "--device", "llvmpipe"});
     ASSERT_EQ(played.exit_code, 0) << played.err;
-    EXPECT_NE(played.out.find("3 frames"), std::string::npos) << played.out;
+    for (const char* words :
+         {"3 frames", "frames/s", "cached irradiance, 4 shadow rays per emissive mesh, 1 view per pixel", "64x48",
+          "median of passes: visibility "})
+        EXPECT_NE(played.out.find(words), std::string::npos) << words << " is not in\n" << played.out;
     ASSERT_EQ(
         run("screenshot", {cornell(), map, "-o", folder / "shot.png", "--size", "64x48", "--exposure", "5"}).exit_code,
         0);
@@ -40,7 +43,7 @@ TEST(Play, HelpNamesUnitsAndDefaults) {
     const Outcome outcome = run("", {"--help"});
     EXPECT_EQ(outcome.exit_code, 0);
     for (const char* words :
-         {"1000000", "1280x720", "960x540", "EV100", "milliseconds", "beside the scene", "--ambiance"})
+         {"1000000", "1280x720", "960x540", "EV100", "milliseconds", "beside the scene", "--ambiance", "--ies"})
         EXPECT_NE(outcome.out.find(words), std::string::npos) << words << " is not in\n" << outcome.out;
     EXPECT_EQ(run("", {}).exit_code, 2);
     EXPECT_EQ(run("", {cornell(), "--size", "wide"}).exit_code, 2);

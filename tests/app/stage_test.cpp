@@ -6,60 +6,14 @@
 #include <cmath>
 
 #include "app/adapt.h"
-#include "app/world.h"
+#include "app/room.h"
 #include "gather/renderer.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
 #include "programs/lavapipe.h"
 
 namespace lw {
 namespace {
 
-constexpr vk::Extent2D size{96, 80};
-
-struct Room {
-    Room()
-        : world(LUMENWALK_SOURCE_DIR "/data/cornell.gltf"),
-          map(std::make_shared<const PhotonMap>(build_photon_map(
-              world.scene, world.caster, shoot_photons(world.scene, world.caster, {30'000, 1}), {30'000, 0, 60, 1}))),
-          device({"llvmpipe", true, {}}),
-          stage(device, world.scene, map, world.bvh) {
-        stage.resize(size);
-        shot.camera = world.scene.cameras[0];
-        shot.lamps_a = {vec3(1)};
-    }
-
-    /// Codes of the screen after one more frame.
-    std::vector<uint32_t> frame(const Look& look) {
-        vk::UniqueCommandPool pool = device.handle().createCommandPoolUnique({{}, device.queue_family()});
-        std::vector<vk::UniqueCommandBuffer> parts;
-        const auto begin = [&] {
-            auto made = device.handle().allocateCommandBuffersUnique({*pool, vk::CommandBufferLevel::ePrimary, 1});
-            parts.push_back(std::move(made[0]));
-            parts.back()->begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-            return *parts.back();
-        };
-        const auto send = [&](vk::CommandBuffer commands) {
-            commands.end();
-            const vk::CommandBufferSubmitInfo info(commands);
-            device.queue().submit2(vk::SubmitInfo2({}, {}, info, {}), {});
-            device.queue().waitIdle();
-        };
-        vk::CommandBuffer commands = begin();
-        stage.record(commands, shot, look, 0, [&](vk::CommandBuffer& part) {
-            send(part);
-            part = begin();
-        });
-        send(commands);
-        return read_back<uint32_t>(device, stage.screen(), size_t(size.width) * size.height);
-    }
-
-    World world;
-    std::shared_ptr<const PhotonMap> map;
-    Device device;
-    Stage stage;
-    Shot shot;
-};
+constexpr vk::Extent2D size{96, 80};  // of the room's pictures
 
 /// Largest difference of a channel of two screens over columns [first, end).
 int largest_difference(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, uint first, uint end) {
@@ -232,7 +186,7 @@ TEST(Adapt, RangesAreRoundAndSignedOnesEven) {
 
 TEST(Adapt, DividesThePictureOnlyAsMuchAsItsTimeAsksAndGetsFinerOnlyWhenStill) {
     Divisor divisor;
-    Statistics last;
+    FrameStatistics last;
     last.times = {0, 600, 0};
     EXPECT_EQ(divisor.next(0, last, true), 4u);
     last.times = {0, 10, 0, 4};

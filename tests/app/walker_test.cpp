@@ -119,6 +119,66 @@ TEST(Walker, WandersTheApartmentForThousandsOfStepsAndKeepsItsFloorAndCeiling) {
     }
 }
 
+/// True when no surface lies between two places of the eye, and both are between the outer walls.
+testing::AssertionResult stays_inside(const Place& place, vec3 from, vec3 to) {
+    const vec3 low = -vec3(place.scene.origin), high = vec3(glm::dvec3(8, 2.7, 0) - place.scene.origin);
+    const bool inside =
+        to.x > low.x && to.x < high.x && to.z > low.z - 6 && to.z < high.z && to.y > low.y && to.y < high.y;
+    if (inside && place.around.is_free(from, to)) return testing::AssertionSuccess();
+    const glm::dvec3 at = place.scene.origin + glm::dvec3(to);
+    return testing::AssertionFailure() << (inside ? "passed a surface" : "left the flat") << " at " << at.x << " "
+                                       << at.y << " " << at.z;
+}
+
+/// Places on the way of someone who wanders from every camera: all rooms that have no door in between.
+std::vector<Walker> places_in_all_rooms(const Place& place) {
+    std::vector<Walker> places;
+    for (size_t c = 0; c < place.scene.cameras.size(); ++c) {
+        const Walker start = walker_at(place.scene.cameras[c], place.body, place.around);
+        wander(place, start, 10 + c, 1500, [&](const Walker& w, int i) {
+            if (i % 100 == 0) places.push_back(w);
+        });
+    }
+    return places;
+}
+
+TEST(Walker, PushingForAWhileAtEveryWallOfTheApartmentPassesNoneOfThem) {
+    const Place place = place_of("apartment.glb");
+    const std::vector<Walker> starts = places_in_all_rooms(place);
+    vec3 low = starts[0].eye, high = low;
+    size_t steps = 0;
+    for (const Walker& start : starts)
+        for (int way = 0; way < 8; ++way) {
+            Walker walker = start;
+            walker.yaw = (float(way) + 0.05f) * lw_pi / 4;
+            for (int i = 0; i < 90; ++i, ++steps) {  // 3 s, running, slower frames now and then
+                const Walker before = walker;
+                const float sideways = i > 45 ? std::sin(float(i)) : 0.0f;
+                walker =
+                    walk(walker, {{sideways, 0, 1}, {0, 0}, true}, i % 10 ? 0.033f : 0.2f, place.body, place.around);
+                ASSERT_TRUE(stays_inside(place, before.eye, walker.eye)) << "way " << way << ", step " << i;
+                low = min(low, walker.eye), high = max(high, walker.eye);
+            }
+        }
+    EXPECT_GT(steps, 25'000u);
+    EXPECT_GT(high.x - low.x, 7) << "all rooms of the flat of 8 by 6 m";
+    EXPECT_GT(high.z - low.z, 5);
+}
+
+TEST(Walker, WalksTheSameWayEachTime) {
+    const Place place = place_of("apartment.glb");
+    const Walker start = walker_at(place.scene.cameras[0], place.body, place.around);
+    const auto end = [&] {
+        Walker last;
+        wander(place, start, 3, 600, [&](const Walker& w, int) { last = w; });
+        return last;
+    };
+    const Walker first = end(), second = end();
+    EXPECT_EQ(first.eye, second.eye);
+    EXPECT_EQ(first.yaw, second.yaw);
+    EXPECT_NE(first.eye, start.eye);
+}
+
 TEST(Walker, ClimbsAStepOf35CentimetresAndNotOneOf45) {
     for (float height : {0.34f, 0.45f}) {
         const Place place(room_with({{vec3(-3, 0, -3), vec3(3, height, -1)}}));

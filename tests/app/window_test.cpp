@@ -156,5 +156,49 @@ TEST(Window, SaysInOneLineThatThereIsNoDisplay) {
     EXPECT_NE(outcome.err.find("no display"), std::string::npos) << outcome.err;
 }
 
+TEST(Window, SaysInOneLineThatThereIsNoVulkan) {
+    SKIP_WITHOUT_DISPLAY();
+    const Display display;
+    for (const char* name : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) setenv(name, "/nowhere.json", 1);
+    const Outcome outcome = run("", {"data/cube.gltf"});
+    for (const char* name : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) unsetenv(name);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("lumenwalk: Vulkan: no device found (mesa-vulkan-drivers"), std::string::npos)
+        << outcome.err;
+}
+
+TEST(Window, GoesOnWithoutABrokenFileOfAmbiancesAndLeavesItAlone) {
+    SKIP_WITHOUT_DISPLAY();
+    const Display display;
+    WalkingWindow window("cube.gltf", {"--photons", "5000"}, "", "{\"ambiances\": 3");
+    ASSERT_TRUE(window.waits_for(" photons\n"));
+    EXPECT_TRUE(window.says("cube.ambiances.json: is not JSON"));
+    EXPECT_GT(mean_of(read_exr(window.screenshot() + ".exr"), "illuminance"), 0);
+    expect_clean_end(window.close());
+    EXPECT_EQ(read_text(window.folder() / "cube.ambiances.json"), "{\"ambiances\": 3");
+}
+
+TEST(Window, ACalculationGridByTwoClicksIsReadAndAFileOnALampBakesAnew) {
+    SKIP_WITHOUT_DISPLAY();
+    const Display display;
+    WalkingWindow window("cube.gltf", {"--photons", "5000"}, "",
+                         R"({"photometry": {"lamp": "photometry/batwing.ies"}})");
+    ASSERT_TRUE(window.waits_for(" photons\n"));
+    window.key("h");
+    window.key("g");
+    EXPECT_TRUE(window.waits_for("click two opposite corners"));
+    xdotool("mousemove --window " + window.id() + " 40 200 click 1");
+    EXPECT_TRUE(window.waits_for("now the opposite corner"));
+    xdotool("mousemove --window " + window.id() + " 280 230 click 1");
+    EXPECT_TRUE(window.waits_for("grid 1: "));
+    EXPECT_TRUE(window.waits_for("calculation grids: 1 read"));
+    expect_clean_end(window.close());
+    EXPECT_EQ(run("screenshot", {window.folder() / "cube.gltf", "-o", window.folder() / "a.png", "--size", "16x16"})
+                  .exit_code,
+              0)
+        << "the map belongs to the scene with the file, for every program";
+}
+
 }  // namespace
 }  // namespace lw
