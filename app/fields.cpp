@@ -11,10 +11,6 @@ namespace {
 
 constexpr double thinnest = 0.1;  // m
 
-PowerSetting setting_of(const Scene& scene, const std::vector<vec3>& factors, const std::string& name) {
-    return {name, luminous_factors(scene, factors)};
-}
-
 const char* axis_name(vec3 facing) {
     constexpr const char* names[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
     for (int axis = 0; axis < 3; ++axis)
@@ -61,12 +57,11 @@ std::string text_of(const GridRequest& r) {
     return result + (r.task.empty() ? "" : " task=" + r.task);
 }
 
-void value_fields(Fields& fields, const Scene& scene, const std::vector<vec3>& factors) {
-    const PowerSetting setting = setting_of(scene, factors, "");
+void value_fields(Fields& fields, const std::vector<vec3>& factors) {
     for (Field& field : fields.fields) {
         if (field.readings.empty()) continue;
         field.values.clear();
-        for (const Reading& reading : field.readings) field.values.push_back(value_of(reading, scene, setting.factors));
+        for (const Reading& reading : field.readings) field.values.push_back(value_of(reading, factors));
         field.statistics = statistics_of(field.readings, field.values);
     }
 }
@@ -85,9 +80,9 @@ std::string summary_of(const Field& field) {
     return result + (field.is_current ? "" : "\nbeing read again");
 }
 
-Survey survey_of(const Fields& fields, const Scene& scene, const std::vector<vec3>& factors, const std::string& name) {
+Survey survey_of(const Fields& fields, const std::vector<vec3>& factors, const std::string& name) {
     Survey survey;
-    survey.ambiances = {setting_of(scene, factors, name)};
+    survey.ambiances = {{name, factors}};
     for (const Field& field : fields.fields)
         if (!field.readings.empty()) survey.sets.push_back({field.set, field.readings});
     return survey;

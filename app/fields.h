@@ -40,12 +40,12 @@ GridRequest request_between(const Fields& fields, vec3 first, vec3 second, const
 std::string text_of(const GridRequest& request);
 
 /// Values and sums at the lamps' present powers (factors per lamp and channel).
-void value_fields(Fields& fields, const Scene& scene, const std::vector<vec3>& factors);
+void value_fields(Fields& fields, const std::vector<vec3>& factors);
 
 /// "312 lx +- 3, Emin 190, U0 0.61": one line of what is known, or that it is still being read.
 std::string summary_of(const Field& field);
 
 /// What lumenwalk-measure writes of the same grids: a table of sensors and one of fields, the ambiance being `name`.
-Survey survey_of(const Fields& fields, const Scene& scene, const std::vector<vec3>& factors, const std::string& name);
+Survey survey_of(const Fields& fields, const std::vector<vec3>& factors, const std::string& name);
 
 }  // namespace lw

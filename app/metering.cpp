@@ -114,7 +114,7 @@ void add_written_field(Session& s) {
 
 void save_fields(Session& s) {
     try {
-        const Survey survey = survey_of(s.fields, s.world.scene, factors_now(s.lighting),
+        const Survey survey = survey_of(s.fields, factors_now(s.lighting),
                                         s.lighting.current.empty() ? "lamps as set" : s.lighting.current);
         const std::filesystem::path sums = free_name(s, "grids.csv"), points = free_name(s, "sensors.csv");
         write_table(sums, fields_as_csv(survey, s.world.scene));

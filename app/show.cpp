@@ -84,7 +84,7 @@ void Show::measure() {
     const bool view_changed = camera.position != measured_eye_ || camera.rotation != measured_rotation_;
     if (!lamps_changed && !view_changed && session_.metering.on == session_.metering.live.has_value()) return;
     measure_again(session_, stage_->map(), lamps_changed);
-    if (lamps_changed) value_fields(session_.fields, session_.world.scene, factors);
+    if (lamps_changed) value_fields(session_.fields, factors);
     measured_ = factors;
     measured_eye_ = camera.position;
     measured_rotation_ = camera.rotation;

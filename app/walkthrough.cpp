@@ -36,7 +36,7 @@ void follow_baking(Baking& baking, Session& session, SharedMap& map, Show& show)
 void follow_fields(FieldReader& reader, Session& session, const SharedMap& map) {
     try {
         if (!reader.follow(session.fields, map)) return;
-        value_fields(session.fields, session.world.scene, factors_now(session.lighting));
+        value_fields(session.fields, factors_now(session.lighting));
         tell(session, "calculation grids: " + std::to_string(session.fields.fields.size()) + " read", 2);
     } catch (const Error& failure) {
         tell(session, failure.what(), 10);

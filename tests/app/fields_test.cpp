@@ -23,7 +23,7 @@ struct Cube {
 
     void read(Fields& fields) {
         ASSERT_TRUE(wait_until([&] { return reader.follow(fields, map); }));
-        value_fields(fields, world.scene, {vec3(1)});
+        value_fields(fields, {vec3(1)});
     }
 
     World world;
@@ -41,8 +41,8 @@ TEST(Fields, AreThoseOfLumenwalkMeasure) {
     cube.read(fields);
     const Field& field = fields.fields[0];
     EXPECT_TRUE(field.is_current);
-    const Survey survey = make_survey(cube.world.scene, cube.world.caster, *cube.map, {field.set}, {{"all", {1}}}, {});
-    const Statistics expected = statistics_of(survey.sets[0], cube.world.scene, survey.ambiances[0], 1);
+    const Survey survey = make_survey(cube.world.scene, cube.world.caster, *cube.map, {field.set}, {{"all", {vec3(1)}}}, {});
+    const Statistics expected = statistics_of(survey.sets[0], survey.ambiances[0], 1);
     EXPECT_NEAR(field.statistics.average.value, expected.average.value, 0.01 * expected.average.value);
     EXPECT_NEAR(field.statistics.u0.value, expected.u0.value, 0.03);
     const double direct = 100 / (1.25 * 1.25);  // right under the lamp of 100 cd, 1.25 m above
@@ -56,12 +56,12 @@ TEST(Fields, FollowTheDimmersWithoutBeingReadAgain) {
     add_field(fields, parse_grid(desk), cube.world.scene);
     cube.read(fields);
     const Statistics full = fields.fields[0].statistics;
-    value_fields(fields, cube.world.scene, {vec3(0.25f)});
+    value_fields(fields, {vec3(0.25f)});
     EXPECT_NEAR(fields.fields[0].statistics.average.value, 0.25 * full.average.value, 1e-4 * full.average.value);
     EXPECT_NEAR(fields.fields[0].statistics.average.half_width, 0.25 * full.average.half_width,
                 1e-3 * full.average.half_width);
     EXPECT_NEAR(fields.fields[0].statistics.u0.value, full.u0.value, 1e-6);
-    value_fields(fields, cube.world.scene, {vec3(0)});
+    value_fields(fields, {vec3(0)});
     EXPECT_EQ(fields.fields[0].statistics.maximum.value, 0);
 }
 
