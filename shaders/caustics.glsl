@@ -33,7 +33,7 @@ float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
 /// Adds caustic light at a surface of `triangle` whose other light comes from the place `at`.
 void add_caustics(uint triangle, bool front, MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                   LW_INOUT(Gathered) light) LW_MEMBER {
-    uint own = caustic_map_of(triangle, front);
+    uint own = map_at(caustic_map_of(triangle, front), s.position);
     if (own == no_map) return;
     SurfaceGrid grid = grid_at(own);
     vec3 local = position_in_grid(grid, s.position);

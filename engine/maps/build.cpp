@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "maps/coverage.h"
+#include "maps/cuts.h"
 #include "maps/irradiance.h"
 #include "maps/packing.h"
 #include "maps/patches.h"
@@ -126,14 +127,30 @@ float flux_scale_of(const std::vector<Photon>& photons) {
     return top > 0 ? std::exp2(12 - std::ceil(std::log2(top))) : 1.0f;
 }
 
-/// Drops patches without photons, numbers the others after the grids the map has; returns the kept patches in order.
-std::vector<uint> keep_lit_patches(const References& references, const Patches& patches, PhotonMap& map) {
-    std::vector<uint> kept, renumbered(patches.count, no_map);
+/// Drops patches without photons, numbers the others after the grids the map has, then the cuts that lead to any, which
+/// are appended to `cuts`; returns the kept patches in order.
+std::vector<uint> keep_lit_patches(const References& references, const Patches& patches, PhotonMap& map,
+                                   std::vector<SurfaceGrid>& cuts) {
+    std::vector<uint> kept, renumbered(patches.count + patches.cuts.size(), no_map);
     for (uint p = 0; p < patches.count; ++p) {
         if (references.starts[p] == references.starts[p + 1]) continue;
         renumbered[p] = uint(map.grids.size() + kept.size());
         kept.push_back(p);
     }
+    std::vector<char> is_lit(patches.count + patches.cuts.size(), 0);
+    for (uint p : kept) is_lit[p] = 1;
+    const auto first_cut = uint(map.grids.size() + kept.size());
+    for (size_t c = patches.cuts.size(); c-- > 0;)
+        is_lit[patches.count + c] = is_lit[patches.cuts[c].front] || is_lit[patches.cuts[c].back];
+    for (size_t c = 0, next = first_cut; c < patches.cuts.size(); ++c)
+        if (is_lit[patches.count + c]) renumbered[patches.count + c] = uint(next++);
+    for (size_t c = 0; c < patches.cuts.size(); ++c)
+        if (is_lit[patches.count + c]) {
+            const PatchCut& cut = patches.cuts[c];
+            cuts.push_back({});
+            cuts.back().origin = cut.point, cuts.back().normal = cut.up;
+            cuts.back().rows = renumbered[cut.front], cuts.back().first_cell = renumbered[cut.back];
+        }
     for (uint patch : patches.of_side) map.triangle_maps.push_back(renumbered[patch]);
     return kept;
 }
@@ -180,19 +197,24 @@ namespace {
 struct Partition {
     static constexpr float largest_floor = 0.5f;  // of the radius
 
-    Partition(const Scene& scene, const Photons& photons, const BakeSettings& settings)
+    Partition(const Scene& scene, const RayCaster& caster, const Photons& photons, const BakeSettings& settings)
         : patches(group_triangles(scene, patch_size_in_radii * settings.radius)),
-          shapes(shapes_of(scene, patches)),
+          shapes(cut_shapes(scene, settings.radius, patches)),
           neighbours(shapes, patch_radii(shapes, settings.radius, largest_floor * settings.radius),
                      settings.neighbour_angle_deg, settings.radius) {
         float floor = largest_floor * settings.radius;
         for (int tries = 0; tries < 16; ++tries, floor *= 0.75f) {
             radii = patch_radii(shapes, settings.radius, floor);
             if (sample_references(
-                    {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours}, 20000) <
-                references_per_photon)
+                    {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours, caster},
+                    20000) < references_per_photon)
                 break;
         }
+    }
+    static std::vector<PatchShape> cut_shapes(const Scene& scene, float radius, Patches& patches) {
+        std::vector<PatchShape> shapes = shapes_of(scene, patches);
+        cut_patches(scene, radius, patches, shapes);
+        return shapes;
     }
     Patches patches;
     std::vector<PatchShape> shapes;
@@ -201,11 +223,12 @@ struct Partition {
 };
 
 /// Appends the grids of a set of photons and which triangles they belong to; returns the patch of each grid.
-std::vector<uint> append_grids(const Scene& scene, const Partition& partition, const std::vector<Photon>& photons,
-                               PhotonMap& map) {
+std::vector<uint> append_grids(const Scene& scene, const RayCaster& caster, const Partition& partition,
+                               const std::vector<Photon>& photons, PhotonMap& map) {
     const References references = find_references({scene, photons, partition.patches, partition.shapes, partition.radii,
-                                                   map.settings.neighbour_angle_deg, partition.neighbours});
-    const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map);
+                                                   map.settings.neighbour_angle_deg, partition.neighbours, caster});
+    std::vector<SurfaceGrid> cuts;
+    const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map, cuts);
     const size_t first_grid = map.grids.size(), first_place = map.places.size();
     const auto first = [&](size_t m) { return references.photons.data() + references.starts[kept[m]]; };
     const auto last = [&](size_t m) { return references.photons.data() + references.starts[kept[m] + 1]; };
@@ -233,6 +256,7 @@ std::vector<uint> append_grids(const Scene& scene, const Partition& partition, c
         fill_grid(map, uint(first_grid + m), records, first(m), last(m),
                   uint(first_place + references.starts[kept[m]]));
     });
+    map.grids.insert(map.grids.end(), cuts.begin(), cuts.end());
     return kept;
 }
 
@@ -243,11 +267,12 @@ void add_lattices(const Scene& scene, const RayCaster& caster, const Partition& 
     const float radius = map.settings.radius;
     std::vector<PatchShape> shapes;
     for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
+    shapes.resize(map.grids.size());  // cuts have none
     const std::vector<NodePoint> nodes = lay_lattices(scene, shapes, 0.5f * radius, map);
     const std::vector<Photon> samples =
         sample_surfaces(scene, caster, partition.patches, 0.03f * radius * radius, clearance_of(radius));
     const References references = find_references({scene, samples, partition.patches, partition.shapes, partition.radii,
-                                                   map.settings.neighbour_angle_deg, partition.neighbours});
+                                                   map.settings.neighbour_angle_deg, partition.neighbours, caster});
     if (!map.settings.direct_in_photons) map.visible_lamps = find_visibility(scene, caster, map, nodes);
     map.coverage = find_coverage(scene, map, nodes, samples, references, kept);
     map.irradiance = find_irradiance(scene, caster, map, nodes, map.irradiance_scale);
@@ -268,16 +293,19 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     map.flux_scale = flux_scale_of(photons.records);
     for (const LightBalance& light : photons.lights) map.emitted.push_back(light.emitted);
 
-    const Partition partition(scene, photons, settings);
+    const Partition partition(scene, caster, photons, settings);
     std::vector<Photon> caustic, others;
     for (const Photon& p : photons.records)
         if (p.path() == path_caustic) caustic.push_back(p);
     if (!caustic.empty())
         std::copy_if(photons.records.begin(), photons.records.end(), std::back_inserter(others),
                      [](const Photon& p) { return p.path() != path_caustic; });
-    const std::vector<uint> kept = append_grids(scene, partition, caustic.empty() ? photons.records : others, map);
+    const std::vector<uint> kept =
+        append_grids(scene, caster, partition, caustic.empty() ? photons.records : others, map);
     add_lattices(scene, caster, partition, kept, map);
-    if (!caustic.empty()) map.caustic_grids = uint(append_grids(scene, partition, caustic, map).size());
+    const size_t others_end = map.grids.size();
+    if (!caustic.empty()) append_grids(scene, caster, partition, caustic, map);
+    map.caustic_grids = uint(map.grids.size() - others_end);
     return map;
 }
 

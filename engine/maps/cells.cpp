@@ -28,13 +28,14 @@ class PlaneMaps {
     PlaneMaps(const Scene& scene, const PhotonMap& map) : plane_(map.grids.size(), 1), heights_(map.grids.size(), 0) {
         std::vector<char> met(map.grids.size(), 0);
         for (size_t side = 0; side < std::min(map.triangle_maps.size(), 2 * scene.triangles.size()); ++side) {
-            const uint m = map.triangle_maps[side];
-            if (m == no_map || !plane_[m]) continue;
-            const float first = height_of(scene, map.grids[m], scene.triangles[side / 2].x);
-            if (!met[m]) heights_[m] = first;
-            met[m] = 1;
-            plane_[m] =
-                is_matte(scene.material_of(uint(side / 2))) && lies_in(scene, map.grids[m], side / 2, heights_[m]);
+            map.for_each_map(map.triangle_maps[side], [&](uint m) {
+                if (!plane_[m]) return;
+                const float first = height_of(scene, map.grids[m], scene.triangles[side / 2].x);
+                if (!met[m]) heights_[m] = first;
+                met[m] = 1;
+                plane_[m] =
+                    is_matte(scene.material_of(uint(side / 2))) && lies_in(scene, map.grids[m], side / 2, heights_[m]);
+            });
         }
     }
     bool contain(size_t m) const { return plane_[m] != 0; }

@@ -222,7 +222,7 @@ void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
         const vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal;
         vec3 n = front ? s.normal : -s.normal;
         if (dot(n, to_view) <= 1e-4f) n = n_geometric;
-        const uint map = triangle_maps[2 * hit->triangle + (front ? 0 : 1)];
+        const uint map = map_at(map_of(hit->triangle, front), s.position);
         const bool specular = is_purely_specular(s);
         const bool sharp = !specular && s.metallic > 0.5f && s.roughness < narrowest_gathered_roughness;
         const bool close = hit->distance < 0.5f * max_radius || !is_resolved(map, s.position, n_geometric);
@@ -237,7 +237,7 @@ void LightMeter::gather(vec3 origin, vec3 direction, Gathering& to) const {
                       to);
         if (!walk_on) add_photons(map, map, s, n_geometric, n, to_view, to);
         if (!walk_on && has_caustics)
-            add_photons(caustic_map_of(hit->triangle, front), map, s, n_geometric, n, to_view, to);
+            add_photons(map_at(caustic_map_of(hit->triangle, front), s.position), map, s, n_geometric, n, to_view, to);
         if (!walk_on && s.transmission <= 0) return;
 
         const std::optional<Scatter> next = sample_bsdf(*this, s, to_view, Carries::radiance, to.rng);
@@ -270,7 +270,7 @@ void LightMeter::estimate_on_surface(const Sensor& sensor, Reading& reading) con
     if (!map_.settings.direct_in_photons)
         for (uint lamp = 0; lamp < light_count; ++lamp)
             reading.photon_map[lamp] = file_lux(lamp, reading.lamps[lamp]) - reading.indirect[lamp];
-    const uint map = triangle_maps[2 * hit->triangle + (front ? 0 : 1)];
+    const uint map = map_at(map_of(hit->triangle, front), s.position);
     if (map == no_map) return;
     const MapPlace at = place_on(map, s.position);
     const SurfaceGrid& grid = at.grid;

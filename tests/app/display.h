@@ -50,13 +50,17 @@ class Display {
     }
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
-    ~Display() {
-        unsetenv("DISPLAY");
-        kill(pid_, SIGTERM);
-        waitpid(pid_, nullptr, 0);
-    }
+    ~Display() { end(SIGTERM); }
+    /// Goes away at once, as when its server crashes.
+    void vanish() { end(SIGKILL); }
 
   private:
+    void end(int signal) {
+        unsetenv("DISPLAY");
+        if (pid_ > 0) kill(pid_, signal), waitpid(pid_, nullptr, 0);
+        pid_ = 0;
+    }
+
     TempFolder folder_;
     pid_t pid_ = 0;
 };
@@ -110,6 +114,11 @@ class WalkingWindow {
     /// Ends it as a user does; by force, which fails the test, when it does not go within a minute.
     Outcome close() {
         key("ctrl+q");
+        return wait();
+    }
+
+    /// Waits until it ends by itself, a minute at most.
+    Outcome wait() {
         const auto is_gone = [&] {
             siginfo_t state{};
             return waitid(P_PID, id_t(process_->id()), &state, WEXITED | WNOHANG | WNOWAIT) == 0 && state.si_pid != 0;
