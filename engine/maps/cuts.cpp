@@ -14,10 +14,10 @@
 namespace lw {
 namespace {
 
-constexpr float least_wall = 0.5f;     // of the radius: shorter things (legs of chairs) cut nothing
-constexpr float tolerance = 0.002f;    // of the radius: segments as close to a line lie on it
-constexpr float least_piece = 0.005f;  // of the radius: a wall along the border of a patch cuts nothing off
-constexpr float steep = 0.7f;          // largest cosine between the normals of a wall and of what it stands on
+constexpr float least_wall = 1;      // radius: shorter things (legs, boards of furniture) cut nothing
+constexpr float tolerance = 0.002f;  // of the radius: segments as close to a line lie on it
+constexpr float least_piece = 0.1f;  // of the radius: a wall along the border of a patch cuts nothing off
+constexpr float steep = 0.7f;        // largest cosine between the normals of a wall and of what it stands on
 constexpr size_t most_cuts = 255, most_tried = 512;
 constexpr int deepest_cut = most_cuts_deep;
 
@@ -38,8 +38,11 @@ struct WallLine {
     float height(vec2 p) const { return along.x * (p.y - point.y) - along.y * (p.x - point.x); }
 };
 
-bool is_plane(const PatchShape& shape, float radius) {
-    return shape.cos_spread > 0.999f && shape.high.z - shape.low.z <= height_of_cuts(radius);
+/// Whether walls may stand on a patch: it is plane, and no small piece of furniture.
+bool may_be_cut(const PatchShape& shape, float radius) {
+    const vec3 size = shape.high - shape.low;
+    return shape.cos_spread > 0.999f && size.z <= height_of_cuts(radius) &&
+           std::max(size.x, size.y) > least_wall * radius;
 }
 
 /// Where a triangle that crosses the plane a little above the patch meets the patch, clipped to it and its
@@ -77,9 +80,9 @@ bool crossing(const PatchShape& shape, const std::array<vec3, 3>& corners, float
 std::vector<Segment> find_segments(const Scene& scene, float radius, const std::vector<PatchShape>& shapes) {
     std::vector<Box> slabs;
     for (const PatchShape& s : shapes) {
-        const bool plane = is_plane(s, radius);
+        const bool wanted = may_be_cut(s, radius);
         const vec3 reach = (abs(s.u_axis) + abs(s.v_axis)) * radius + abs(s.normal) * (2 * height_of_cuts(radius));
-        slabs.push_back(plane ? Box{s.box_low - reach, s.box_high + reach} : Box{vec3(1e30f), vec3(-1e30f)});
+        slabs.push_back(wanted ? Box{s.box_low - reach, s.box_high + reach} : Box{vec3(1e30f), vec3(-1e30f)});
     }
     const BoxSearch search(std::move(slabs));
     constexpr size_t chunk = 4096;

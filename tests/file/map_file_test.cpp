@@ -14,6 +14,7 @@
 #include "base/random.h"
 #include "maps/build.h"
 #include "photons/shoot.h"
+#include "robustness/room.h"
 #include "scene/gltf.h"
 
 namespace lw {
@@ -162,6 +163,38 @@ TEST_F(MapFile, SignedGridsThatLeadOutOfTheirArraysAreRefused) {
     refused("axis", [](SurfaceGrid& g) { g.u_axis.x = 1e30f; });
     refused("cell size", [](SurfaceGrid& g) { g.cell_size = 1e-30f; });
     refused("radius", [](SurfaceGrid& g) { g.radius = INFINITY; });
+}
+
+/// A map cut along a wall: what the cuts lead to is checked, so that no way through them leads out or round.
+TEST_F(MapFile, WithCutsRoundTripsAndIsRefusedWhenTheyLeadAstray) {
+    test::Room room = test::plain_room();
+    room.walls = test::joined(room.walls, test::quad({2, 0, 0}, {0, 0, 5}, {0, 3, 0}));
+    const test::Baked baked(room, 5000);
+    const auto first = std::find_if(baked.map.grids.begin(), baked.map.grids.end(),
+                                    [](const SurfaceGrid& g) { return g.columns == 0; });
+    ASSERT_NE(first, baked.map.grids.end()) << "no map is cut";
+    const auto cut = size_t(first - baked.map.grids.begin());
+    save_photon_map(path, baked.map);
+    EXPECT_EQ(load_photon_map(path, baked.scene).grids.size(), baked.map.grids.size());
+    const auto refused = [&](const char* what, const auto& damage) {
+        PhotonMap bad = baked.map;
+        damage(bad);
+        save_photon_map(path, bad);
+        EXPECT_THROW(load_photon_map(path, baked.scene), Error) << what;
+    };
+    refused("to itself", [&](PhotonMap& m) { m.grids[cut].rows = uint(cut); });
+    refused("beyond the grids", [&](PhotonMap& m) { m.grids[cut].first_cell = uint(m.grids.size()); });
+    refused("no number", [&](PhotonMap& m) { m.grids[cut].origin.x = NAN; });
+    refused("no direction", [&](PhotonMap& m) { m.grids[cut].normal.y = 1e30f; });
+    refused("with a lattice", [&](PhotonMap& m) { m.grids[cut].lattice.columns = 3; });
+    refused("too many one after the other", [&](PhotonMap& m) {
+        SurfaceGrid next = m.grids[cut];
+        for (uint i = 0; i <= most_cuts_deep; ++i) {
+            next.rows = uint(m.grids.size()) + 1;
+            m.grids.push_back(next);
+        }
+        m.grids.back().rows = no_map;
+    });
 }
 
 TEST_F(MapFile, LambertSceneStoresNoDirections) { EXPECT_FALSE(map.has_directions()); }
