@@ -14,7 +14,6 @@ namespace {
 
 constexpr size_t most_tasks = 64;
 constexpr float same_plane = 0.999f;        // least cosine between normals
-constexpr float beyond_border = 0.002f;     // of the largest radius
 constexpr uint first_of_photon = 1u << 31;  // marks the map of the photon's own side
 
 /// The maps of the photons [begin, end) one after another, and how many references each map has among them.
@@ -96,10 +95,10 @@ class MapFinder {
         vec3 way = nearest_point(position, shape.to_local(position), shape) - position;
         way -= normal * dot(way, normal);
         const float distance = length(way);
-        const float beyond = std::max(beyond_border * largest_, 8 * in_.caster.epsilon());
+        const float lift = std::max(height_of_cuts(largest_), 8 * in_.caster.epsilon());
         if (!(distance > 0)) return true;
-        const vec3 start = position + normal * std::max(height_of_cuts(largest_), 8 * in_.caster.epsilon());
-        return !in_.caster.nearest(start, way / distance, distance + beyond);
+        const float beyond = 1.1f * lift;  // a wall may lean by 45 degrees
+        return !in_.caster.nearest(position + normal * lift, way / distance, distance + beyond);
     }
 
     const ReferenceInput& in_;
