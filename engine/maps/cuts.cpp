@@ -177,15 +177,38 @@ std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius
     return lines;
 }
 
-Outline outline_of(const Scene& scene, const PatchShape& shape) {
-    if (shape.triangles != 1)
-        return {vec2(shape.low), {shape.high.x, shape.low.y}, vec2(shape.high), {shape.low.x, shape.high.y}};
-    Outline outline;
-    for (int c = 0; c < 3; ++c)
-        outline.emplace_back(shape.to_local(scene.positions[scene.triangles[shape.triangle][c]]));
-    const vec2 ab = outline[1] - outline[0], ac = outline[2] - outline[0];
-    if (ab.x * ac.y - ab.y * ac.x < 0) std::swap(outline[1], outline[2]);  // the other side of the triangle
-    return outline;
+/// The convex hull of points (monotone chain, Andrew 1979).
+Outline hull_of(Outline points) {
+    std::sort(points.begin(), points.end(), [](vec2 p, vec2 q) { return std::tie(p.x, p.y) < std::tie(q.x, q.y); });
+    Outline hull;
+    for (const bool back : {false, true}) {
+        const size_t first = hull.size();
+        for (const vec2 p : points) {
+            const auto turns_left = [&] {
+                const vec2 a = hull[hull.size() - 2], b = hull.back();
+                return (b.x - a.x) * (p.y - b.y) - (b.y - a.y) * (p.x - b.x) > 0;
+            };
+            while (hull.size() >= first + 2 && !turns_left()) hull.pop_back();
+            hull.push_back(p);
+        }
+        hull.pop_back();  // the other half begins with it
+        if (!back) std::reverse(points.begin(), points.end());
+    }
+    return hull;
+}
+
+/// The outlines of the wanted patches, in their frames.
+std::unordered_map<uint, Outline> outlines_of(const Scene& scene, const Patches& patches,
+                                              const std::vector<PatchShape>& shapes, const std::vector<uint>& wanted) {
+    std::unordered_map<uint, Outline> outlines;
+    for (uint patch : wanted) outlines[patch];
+    for (size_t side = 0; side < patches.of_side.size(); ++side)
+        if (const auto found = outlines.find(patches.of_side[side]); found != outlines.end())
+            for (int c = 0; c < 3; ++c)
+                found->second.emplace_back(
+                    shapes[found->first].to_local(scene.positions[scene.triangles[side / 2][c]]));
+    for (auto& [patch, outline] : outlines) outline = hull_of(std::move(outline));
+    return outlines;
 }
 
 /// The part of an outline where `sign` x the height over the line is positive.
@@ -220,15 +243,15 @@ float length_inside(const Outline& outline, const WallLine& line, float radius) 
 /// Cuts one patch after another.
 class Cutter {
   public:
-    Cutter(const Scene& scene, float radius, Patches& patches, std::vector<PatchShape>& shapes)
-        : scene_(scene), radius_(radius), patches_(patches), shapes_(shapes), roots_(shapes.size(), no_map) {}
+    Cutter(float radius, Patches& patches, std::vector<PatchShape>& shapes)
+        : radius_(radius), patches_(patches), shapes_(shapes), roots_(shapes.size(), no_map) {}
 
-    void cut(uint patch, const std::vector<WallLine>& lines) {
+    void cut(uint patch, const Outline& outline, const std::vector<WallLine>& lines) {
         whole_ = shapes_[patch];
         lines_ = &lines;
         left_ = most_cuts;
         free_ = patch;
-        const uint root = divide(outline_of(scene_, whole_), 0);
+        const uint root = divide(outline, 0);
         if (root & is_cut) roots_[patch] = root;
     }
 
@@ -283,7 +306,6 @@ class Cutter {
         return id;
     }
 
-    const Scene& scene_;
     float radius_;
     Patches& patches_;
     std::vector<PatchShape>& shapes_;
@@ -306,9 +328,15 @@ void cut_patches(const Scene& scene, float radius, Patches& patches, std::vector
     parallel_for(lines.size(), [&](size_t i) {
         lines[i] = find_lines(std::span(segments).subspan(starts[i], starts[i + 1] - starts[i]), radius);
     });
-    Cutter cutter(scene, radius, patches, shapes);
+    std::vector<uint> wanted;
     for (size_t i = 0; i < lines.size(); ++i)
-        if (!lines[i].empty()) cutter.cut(segments[starts[i]].patch, lines[i]);
+        if (!lines[i].empty()) wanted.push_back(segments[starts[i]].patch);
+    const std::unordered_map<uint, Outline> outlines = outlines_of(scene, patches, shapes, wanted);
+    Cutter cutter(radius, patches, shapes);
+    for (size_t i = 0; i < lines.size(); ++i) {
+        const uint patch = segments[starts[i]].patch;
+        if (!lines[i].empty() && outlines.at(patch).size() > 2) cutter.cut(patch, outlines.at(patch), lines[i]);
+    }
     cutter.finish();
 }
 

@@ -97,6 +97,8 @@ class MapFinder {
         const float distance = length(way);
         const float lift = std::max(height_of_cuts(largest_), 8 * in_.caster.epsilon());
         if (!(distance > 0)) return true;
+        if (in_.caster.nearest(in_.caster.offset(position, normal), normal, lift))
+            return false;                  // under a leaning wall
         const float beyond = 1.1f * lift;  // a wall may lean by 45 degrees
         return !in_.caster.nearest(position + normal * lift, way / distance, distance + beyond);
     }

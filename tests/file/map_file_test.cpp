@@ -189,11 +189,12 @@ TEST_F(MapFile, WithCutsRoundTripsAndIsRefusedWhenTheyLeadAstray) {
     refused("with a lattice", [&](PhotonMap& m) { m.grids[cut].lattice.columns = 3; });
     refused("too many one after the other", [&](PhotonMap& m) {
         SurfaceGrid next = m.grids[cut];
-        for (uint i = 0; i <= most_cuts_deep; ++i) {
-            next.rows = uint(m.grids.size()) + 1;
+        next.rows = next.first_cell = no_map;
+        for (uint i = 0; i <= most_cuts_deep + 1; ++i) {
+            if (i > 0) m.grids.back().rows = uint(m.grids.size());
             m.grids.push_back(next);
         }
-        m.grids.back().rows = no_map;
+        m.grids.back().rows = 0;
     });
 }
 

@@ -133,8 +133,8 @@ TEST_P(Walls, TakeNoLightFromTheFloorBesideThem) {
             }
         tell_case(
             "floor within 10 cm of " + words_of(house.name) + (mode == gather_mode_cached ? ", cached" : ", smooth"),
-            "I cos / d2, +-5 %", "bias %+.2f %%", 100 * (sum / expected - 1));
-        EXPECT_NEAR(sum / expected, 1, 0.05) << mode;
+            "I cos / d2, +-6 %", "bias %+.2f %%", 100 * (sum / expected - 1));
+        EXPECT_NEAR(sum / expected, 1, 0.06) << mode;  // as beside any border: 0 to +6 %
     }
 }
 
