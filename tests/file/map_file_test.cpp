@@ -198,6 +198,49 @@ TEST_F(MapFile, WithCutsRoundTripsAndIsRefusedWhenTheyLeadAstray) {
     });
 }
 
+/// Each of these was found by taking its check away: no quick test failed.
+TEST_F(MapFile, WhatOnlyOneCheckRefusesIsNamed) {
+    const auto told = [&] {
+        try {
+            load_photon_map(path, scene);
+        } catch (const Error& e) {
+            return std::string(e.what());
+        }
+        return std::string("accepted");
+    };
+    const auto refused = [&](const char* named, const auto& damage) {
+        PhotonMap bad = map;
+        damage(bad);
+        save_photon_map(path, bad);
+        EXPECT_NE(told().find(named), std::string::npos) << named << ": " << told();
+    };
+    refused("lattices and coverage do not agree", [](PhotonMap& m) { m.coverage.push_back(0); });
+    refused("cells and grids do not agree", [](PhotonMap& m) { m.cell_starts.push_back(m.cell_starts.back()); });
+    refused("cells and references do not agree", [](PhotonMap& m) {
+        m.places.push_back(m.places.back());
+        m.fluxes.push_back(0);
+    });
+    refused("it has no cells", [](PhotonMap& m) { m.cell_starts.clear(); });
+    refused("the number of lamps", [](PhotonMap& m) { m.emitted.push_back(1); });
+    refused("more grids of caustics than grids", [](PhotonMap& m) { m.caustic_grids = uint(m.grids.size()) + 1; });
+    refused("the number of triangles", [](PhotonMap& m) { m.triangle_maps.push_back(no_map); });
+    refused("the record arrays differ", [](PhotonMap& m) { m.fluxes.pop_back(); });
+    refused("its settings are not valid", [](PhotonMap& m) { m.settings.neighbour_angle_deg = 120; });
+    const auto changed = [&](const char* named, size_t at, char byte) {
+        std::string damaged = bytes;
+        damaged[at] = byte;
+        write(damaged);
+        EXPECT_NE(told().find(named), std::string::npos) << named << ": " << told();
+    };
+    changed("not a Lumenwalk photon map", 0, 'X');
+    changed("written by another version", 8, 9);
+    changed("cut short or its section sizes are wrong", 87, 1);
+    write(bytes + "more");
+    EXPECT_NE(told().find("bytes after its last section"), std::string::npos) << told();
+    std::filesystem::remove(path);
+    EXPECT_NE(told().find("no photon map here"), std::string::npos) << told();
+}
+
 TEST_F(MapFile, LambertSceneStoresNoDirections) { EXPECT_FALSE(map.has_directions()); }
 
 }  // namespace
