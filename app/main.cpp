@@ -12,6 +12,7 @@ namespace {
 struct Options {
     lw::WalkthroughSettings walk;
     std::string scene, map, output, size, gather = "cached";
+    double device_memory_gb = 0;
     lw::PlaySettings play;
 };
 
@@ -30,6 +31,8 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("-o,--output", o.output,
                    "folder of screenshots, probe tables and recorded walks; default: that of the scene");
     app.add_option("--device", o.walk.device.name, "part of the name of a Vulkan device; default: the fastest kind");
+    app.add_option("--device-memory", o.device_memory_gb,
+                   "GB of the device that scene and photons may take; default: what it has to give");
     app.add_option("--play", o.play.path, "replay this recorded walk without a window and end");
     app.add_option("--frames", o.play.frames, "with --play: folder for a PNG of every frame");
     app.add_option("--timings", o.play.timings, "with --play: CSV of the milliseconds of every frame and pass");
@@ -62,6 +65,7 @@ bool parse_size(const std::string& text, vk::Extent2D& size) {
 void run(Options& o) {
     lw::WalkthroughSettings& walk = o.walk;
     walk.scene = o.scene;
+    walk.device.memory_bytes = vk::DeviceSize(o.device_memory_gb * 1e9);
     walk.map = o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map);
     walk.output = o.output.empty() ? walk.scene.parent_path() : std::filesystem::path(o.output);
     if (o.play.path.empty()) return lw::walk_in_window(walk);
@@ -89,6 +93,8 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
         if (!parse_size(options.size, options.walk.size))
             throw CLI::ValidationError("--size: must be WxH in pixels, from 16x16 to 16384x16384");
+        if (app.count("--device-memory") > 0 && !(options.device_memory_gb >= 0.001 && options.device_memory_gb <= 1e6))
+            throw CLI::ValidationError("--device-memory: give a number from 0.001 to 1e6");
         if (options.play.path.empty() && !(options.play.frames.empty() && options.play.timings.empty()))
             throw CLI::ValidationError("--frames and --timings: only with --play");
     } catch (const CLI::ParseError& wrong) {

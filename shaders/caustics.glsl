@@ -40,7 +40,7 @@ float caustics_left(MapPlace at) LW_MEMBER {
 /// Adds the part `left` of the caustic light at a surface of `triangle` whose other light comes from the place `at`.
 void add_caustics(uint triangle, bool front, float left, MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                   LW_INOUT(Gathered) light) LW_MEMBER {
-    uint own = left > 0.0f ? caustic_map_of(triangle, front) : no_map;
+    uint own = left > 0.0f ? map_at(caustic_map_of(triangle, front), s.position) : no_map;
     if (own == no_map) return;
     SurfaceGrid grid = grid_at(own);
     vec3 local = position_in_grid(grid, s.position);

@@ -152,10 +152,8 @@ float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
 
 /// One pass with an Epanechnikov kernel 2 / (pi r^2) (1 - d^2 / r^2) (Silverman 1986), no heap.
 Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
-    Gathered sum;
-    sum.radiance = vec3(0.0f);
-    sum.irradiance = vec3(0.0f);
-    sum.photons = 0.0f;
+    Gathered nothing = no_light();
+    Gathered sum = nothing;
     sum.radius = bandwidth_from_counts(grid, local);
     float r2 = sum.radius * sum.radius;
     float inverse_r2 = 1.0f / r2;
@@ -167,14 +165,18 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
         int x0 = int(floor((local.x - half_width) / grid.cell_size));
         int x1 = int(floor((local.x + half_width) / grid.cell_size));
         uvec2 span = row_span(grid, x0, x1, y);
+        Gathered row = nothing;  // apart, so that sums of millions do not drift
         for (uint i = span.x; i < span.y; ++i) {
             PhotonPlace place = photon_place(i);
             vec3 d = place_in_grid(place, grid) - local;
             float d2 = dot(d, d);
             if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
-            sum.photons += 1.0f;
-            add_photon(i, place, 1.0f - d2 * inverse_r2, s, n_geometric, n_shading, to_view, sum);
+            row.photons += 1.0f;
+            add_photon(i, place, 1.0f - d2 * inverse_r2, s, n_geometric, n_shading, to_view, row);
         }
+        sum.radiance += row.radiance;
+        sum.irradiance += row.irradiance;
+        sum.photons += row.photons;
     }
     add_up(2.0f / (lw_pi * r2), s, n_shading, to_view, sum);
     return sum;
@@ -209,10 +211,24 @@ struct MapPlace {
     vec2 f;      // where in the cell
 };
 
+/// The map of a point of a surface whose map may be cut.
+uint map_at(uint map, vec3 position) LW_MEMBER {
+    while (map != no_map) {
+        SurfaceGrid grid = grid_at(map);
+        if (grid.columns > 0u) break;
+        map = behind_cut(grid, position);
+    }
+    return map;
+}
+
 MapPlace place_on(uint map, vec3 position) LW_MEMBER {
     MapPlace at;
     at.map = map;
     at.grid = grid_at(map == no_map ? 0u : map);  // anything, but there
+    if (map != no_map && at.grid.columns == 0u) {
+        at.map = map_at(map, position);
+        at.grid = grid_at(at.map == no_map ? 0u : at.map);
+    }
     at.local = position_in_grid(at.grid, position);
     at.cell = cell_node(at.grid.lattice, at.local, at.f);
     return at;

@@ -25,6 +25,9 @@ struct SurfaceLattice {
 
 /// The 2D uniform grid of one map: a triangle, or a patch of small triangles of like orientation, seen from one side.
 /// Cell (i, j) is cell_starts[first_cell + j * columns + i], its end the next entry.
+/// Where walls stand on a surface, its map is cut along them: a record without columns is a cut, a plane through the origin
+/// with this normal. What lies on the side of the normal belongs to record `rows`, the rest to `first_cell`: a map, a cut
+/// further on, or no_map.
 struct SurfaceGrid {
     vec3 origin;      // corner of the grid; position = origin + u u_axis + v v_axis + h normal
     float cell_size;  // m
@@ -40,7 +43,13 @@ struct SurfaceGrid {
     SurfaceLattice lattice;
 };
 
+/// The record that a cut leads to from a point.
+LW_INLINE uint behind_cut(SurfaceGrid cut, vec3 position) {
+    return dot(position - cut.origin, cut.normal) > 0.0f ? cut.rows : cut.first_cell;
+}
+
 LW_CONST uint surface_grid_texels = 7u;  // of 16 bytes
+LW_CONST uint most_cuts_deep = 48u;      // one after the other
 
 /// Coverage of the kernels of radius R/4, R/2, 3R/4 and R of a map with largest radius R, one byte each.
 LW_CONST uint coverage_levels = 4u;

@@ -27,6 +27,7 @@ struct Options {
              shadow_rays = lw::GatherSettings{}.shadow_rays, paths = lw::GatherSettings{}.paths;
     float followed_roughness = lw::GatherSettings{}.followed_roughness;
     std::optional<float> exposure;
+    double device_memory_gb = 0;
     bool list_cameras = false, list_lights = false, list_devices = false, validation = false;
     bool lists() const { return list_cameras || list_lights || list_devices; }
 };
@@ -68,6 +69,9 @@ void add_options(CLI::App& app, Options& o) {
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     app.add_option("--device", o.device, "part of the name of a Vulkan device; default: the fastest kind");
+    app.add_option("--device-memory", o.device_memory_gb,
+                   "GB of the device that scene and photons may take; default: what it has to give")
+        ->check(lw::finite_number(0.001, 1e6));
     app.add_option("--frames", o.frames, "frames to time, the median is told")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
@@ -141,7 +145,7 @@ void take_screenshot(const Options& o) {
     const std::filesystem::path map_path = o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map);
     const lw::PhotonMap map = lw::load_photon_map(map_path, scene);
     lw::check_can_create(o.output, {o.scene, map_path});
-    const lw::Device device({o.device, o.validation});
+    const lw::Device device({o.device, o.validation, {}, vk::DeviceSize(o.device_memory_gb * 1e9)});
     const lw::Bvh bvh = lw::build_bvh(scene);
     lw::Resident resident(device, scene, map, bvh);
     resident.set_light_factors(factors);

@@ -1,5 +1,6 @@
 #include "file/map_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -94,6 +95,7 @@ void check_lattices(const std::filesystem::path& path, const PhotonMap& map) {
     uint64_t nodes = 0;
     for (size_t i = 0; i < map.grids.size() - map.caustic_grids; ++i) {
         const SurfaceLattice& l = map.grids[i].lattice;
+        if (map.grids[i].columns == 0) continue;
         const auto is_step = [](float v) { return v > 0 && is_place(v); };
         if (l.columns < 2 || l.rows < 2 || l.columns > most_columns || l.rows > most_columns || l.first_node != nodes ||
             !is_step(l.step.x) || !is_step(l.step.y) || !is_place(l.low.x) || !is_place(l.low.y) ||
@@ -104,11 +106,33 @@ void check_lattices(const std::filesystem::path& path, const PhotonMap& map) {
     if (nodes != map.coverage.size()) refuse(path, "lattices and coverage do not agree");
 }
 
+/// What the cuts of the grids [first, last) lead to is there, and no way through them is endless.
+void check_cuts(const std::filesystem::path& path, const PhotonMap& map, size_t first, size_t last) {
+    std::vector<uint> deep(last - first, 0);  // cuts to pass at most
+    for (size_t i = last; i-- > first;) {
+        const SurfaceGrid& cut = map.grids[i];
+        if (cut.columns > 0) continue;
+        for (uint next : {cut.rows, cut.first_cell}) {
+            if (next == no_map) continue;
+            if (next < first || next >= last || (map.grids[next].columns == 0 && next <= i))
+                refuse(path, "cut " + std::to_string(i) + " leads to grid " + std::to_string(next));
+            deep[i - first] = std::max(deep[i - first], deep[next - first] + 1);
+        }
+        if (deep[i - first] > most_cuts_deep) refuse(path, "cut " + std::to_string(i) + " leads too deep");
+    }
+}
+
+bool is_usable_cut(const SurfaceGrid& g) {
+    return is_place(length(g.origin)) && std::abs(g.normal.x) < 2 && std::abs(g.normal.y) < 2 &&
+           std::abs(g.normal.z) < 2 && g.lattice.columns == 0 && g.lattice.rows == 0;
+}
+
 void check_grids(const std::filesystem::path& path, const PhotonMap& map, const Scene& scene) {
     uint64_t cells = 0;
     for (size_t i = 0; i < map.grids.size(); ++i) {
         const SurfaceGrid& g = map.grids[i];
         const uint64_t here = uint64_t(g.columns) * g.rows;
+        if (g.columns == 0 && is_usable_cut(g)) continue;
         if (!is_usable(g, scene.size()) || here == 0 || g.first_cell != cells || here > map.cell_starts.size() - cells)
             refuse(path, "grid " + std::to_string(i) + " is not valid");
         cells += here;
@@ -130,6 +154,8 @@ void check_indices(const std::filesystem::path& path, const PhotonMap& map, cons
         refuse(path, "the record arrays differ in length");
     check_grids(path, map, scene);
     const size_t others = map.grids.size() - map.caustic_grids;
+    check_cuts(path, map, 0, others);
+    check_cuts(path, map, others, map.grids.size());
     for (size_t i = 0; i < map.triangle_maps.size(); ++i) {
         const uint index = map.triangle_maps[i];
         const bool for_caustics = i >= 2 * scene.triangles.size();

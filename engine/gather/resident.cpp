@@ -28,7 +28,10 @@ std::vector<Binding> scene_bindings() {
     return bindings;
 }
 
-std::string mebibytes(uint64_t bytes) { return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB"; }
+std::string mebibytes(uint64_t bytes) {
+    if (bytes < 1u << 20) return std::to_string((bytes + 1023) >> 10) + " KiB";
+    return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB";
+}
 
 uint chunk_count(uint64_t records, uint shift) {
     return uint(std::max<uint64_t>(1, (records + (1ull << shift) - 1) >> shift));
@@ -62,16 +65,30 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
            m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
 }
 
+/// Photons of a map that fits beside `others` bytes, one significant digit: a map grows with its photons.
+uint64_t photons_that_fit(const PhotonMap& map, uint64_t others, uint64_t budget) {
+    if (others >= budget) return 0;
+    const double share = double(budget - others) / double(std::max<uint64_t>(map.bytes(), 1));
+    const auto most = uint64_t(double(map.settings.photons) * std::min(share, 1.0));
+    uint64_t step = 1;
+    while (most / step >= 10) step *= 10;
+    return most / step * step;
+}
+
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map) {
     const uint32_t needed = texel_binding_count + 3 * (most_chunks - 1) + 1;
     const uint32_t has = device.limits().maxPerStageDescriptorSampledImages;
     if (has < needed)
         throw Error(device.name() + ": binds " + std::to_string(has) + " textures, " + std::to_string(needed) +
                     " are needed");
-    const uint64_t bytes = total_bytes(scene, map);
-    if (bytes > device.memory_size())
-        throw Error(device.name() + ": scene and photons take " + mebibytes(bytes) + ", the device has " +
-                    mebibytes(device.memory_size()) + "; bake fewer photons");
+    const uint64_t bytes = total_bytes(scene, map), budget = device.memory_budget();
+    if (bytes <= budget) return;
+    const uint64_t without_photons = bytes - std::min(bytes, map.bytes()),
+                   most = photons_that_fit(map, without_photons, budget);
+    throw Error(
+        device.name() + ": scene and photons take " + mebibytes(bytes) + ", " + mebibytes(budget) +
+        " may be used (--device-memory)" +
+        (most ? "; a map of " + std::to_string(most) + " photons would fit" : "; the scene alone does not fit"));
 }
 
 std::vector<Resident::Cluster> find_clusters(const Scene& scene) {

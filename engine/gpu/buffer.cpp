@@ -42,7 +42,7 @@ Buffer::Buffer(const Device& device, vk::DeviceSize bytes, const std::string& wh
         if (place == Place::host) mapped_ = device.handle().mapMemory(*memory_, 0, VK_WHOLE_SIZE);
     } catch (const vk::SystemError& failure) {
         throw Error(device.name() + ": no memory for " + what + ", " + std::to_string((bytes >> 20) + 1) + " MiB of " +
-                    std::to_string(device.memory_size() >> 20) + " MiB: " + failure.what());
+                    std::to_string(device.memory_budget() >> 20) + " MiB that may be used: " + failure.what());
     }
 }
 

@@ -71,9 +71,9 @@ std::optional<uint32_t> queue_family_of(vk::PhysicalDevice device) {
     return std::nullopt;
 }
 
-bool has_swapchain(vk::PhysicalDevice device) {
+bool has_extension(vk::PhysicalDevice device, const char* name) {
     for (const vk::ExtensionProperties& extension : device.enumerateDeviceExtensionProperties())
-        if (std::string(extension.extensionName.data()) == VK_KHR_SWAPCHAIN_EXTENSION_NAME) return true;
+        if (std::string(extension.extensionName.data()) == name) return true;
     return false;
 }
 
@@ -90,7 +90,8 @@ std::string lack_of(vk::PhysicalDevice device, bool presents = false) {
     if (!chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2) return "feature synchronization2";
     if (!chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4) return "feature maintenance4";
     if (!queue_family_of(device)) return "a queue for graphics and compute with timestamps";
-    if (presents && !has_swapchain(device)) return std::string("extension ") + VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    if (presents && !has_extension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
+        return std::string("extension ") + VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     return "";
 }
 
@@ -123,6 +124,7 @@ Device::Device(const DeviceSettings& settings) {
         physical_ = choose(devices_best_first(*instance_), settings.name, presents);
         name_ = name_of(physical_);
         limits_ = physical_.getProperties().limits;
+        memory_bytes_ = settings.memory_bytes;
         create_device(presents);
     } catch (const vk::IncompatibleDriverError&) {
         throw Error("Vulkan: no driver found (mesa-vulkan-drivers has one that runs on the CPU)");
@@ -189,6 +191,22 @@ vk::DeviceSize Device::memory_size() const {
         if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
             largest = std::max(largest, memory.memoryHeaps[i].size);
     return largest;
+}
+
+vk::DeviceSize Device::memory_budget() const {
+    vk::DeviceSize left = memory_size();
+    if (has_extension(physical_, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME)) {
+        const auto chain = physical_.getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2,
+                                                          vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+        const vk::PhysicalDeviceMemoryProperties& memory =
+            chain.get<vk::PhysicalDeviceMemoryProperties2>().memoryProperties;
+        const auto& told = chain.get<vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
+        left = 0;
+        for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+            if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+                left = std::max(left, told.heapBudget[i] - std::min(told.heapBudget[i], told.heapUsage[i]));
+    }
+    return memory_bytes_ > 0 ? std::min(left, memory_bytes_) : left;
 }
 
 int Device::find_memory_type(uint32_t allowed, vk::MemoryPropertyFlags wanted) const {

@@ -14,6 +14,7 @@ struct DeviceSettings {
     std::string name;         // part of the device's name, any case; empty: discrete before integrated before CPU
     bool validation = false;  // Khronos validation layer with synchronization checks
     std::vector<std::string> window_extensions{};  // of the instance; any: the device must be able to present
+    vk::DeviceSize memory_bytes = 0;               // most that may be used; 0: what the device has to give
 };
 
 /// Errors and warnings of the validation layer, in order; filled from any thread.
@@ -40,6 +41,9 @@ class Device {
     const vk::PhysicalDeviceLimits& limits() const { return limits_; }
     /// Size of the largest heap of device-local memory, bytes.
     vk::DeviceSize memory_size() const;
+    /// Bytes that may be used of it now: what the driver says is left (VK_EXT_memory_budget, else all), at most the
+    /// settings' memory_bytes.
+    vk::DeviceSize memory_budget() const;
     /// Index of a memory type among `allowed` bits with all `wanted` properties, or -1.
     int find_memory_type(uint32_t allowed, vk::MemoryPropertyFlags wanted) const;
     /// What the validation layer said so far; empty without validation.
@@ -56,6 +60,7 @@ class Device {
     uint32_t queue_family_ = 0;
     std::string name_;
     vk::PhysicalDeviceLimits limits_;
+    vk::DeviceSize memory_bytes_ = 0;
     vk::UniqueDevice device_;
     vk::Queue queue_;
     vk::UniqueCommandPool command_pool_;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "maps/coverage.h"
+#include "maps/cuts.h"
 #include "maps/fill_grid.h"
 #include "maps/irradiance.h"
 #include "maps/patches.h"
@@ -44,14 +45,30 @@ float flux_scale_of(const std::vector<Photon>& photons) {
     return top > 0 ? std::exp2(12 - std::ceil(std::log2(top))) : 1.0f;
 }
 
-/// Drops patches without photons, numbers the others after the grids the map has; returns the kept patches in order.
-std::vector<uint> keep_lit_patches(const References& references, const Patches& patches, PhotonMap& map) {
-    std::vector<uint> kept, renumbered(patches.count, no_map);
+/// Drops patches without photons, numbers the others after the grids the map has, then the cuts that lead to any, which
+/// are appended to `cuts`; returns the kept patches in order.
+std::vector<uint> keep_lit_patches(const References& references, const Patches& patches, PhotonMap& map,
+                                   std::vector<SurfaceGrid>& cuts) {
+    std::vector<uint> kept, renumbered(patches.count + patches.cuts.size(), no_map);
     for (uint p = 0; p < patches.count; ++p) {
         if (references.starts[p] == references.starts[p + 1]) continue;
         renumbered[p] = uint(map.grids.size() + kept.size());
         kept.push_back(p);
     }
+    std::vector<char> is_lit(patches.count + patches.cuts.size(), 0);
+    for (uint p : kept) is_lit[p] = 1;
+    const auto first_cut = uint(map.grids.size() + kept.size());
+    for (size_t c = patches.cuts.size(); c-- > 0;)
+        is_lit[patches.count + c] = is_lit[patches.cuts[c].front] || is_lit[patches.cuts[c].back];
+    for (size_t c = 0, next = first_cut; c < patches.cuts.size(); ++c)
+        if (is_lit[patches.count + c]) renumbered[patches.count + c] = uint(next++);
+    for (size_t c = 0; c < patches.cuts.size(); ++c)
+        if (is_lit[patches.count + c]) {
+            const PatchCut& cut = patches.cuts[c];
+            cuts.push_back({});
+            cuts.back().origin = cut.point, cuts.back().normal = cut.up;
+            cuts.back().rows = renumbered[cut.front], cuts.back().first_cell = renumbered[cut.back];
+        }
     for (uint patch : patches.of_side) map.triangle_maps.push_back(renumbered[patch]);
     return kept;
 }
@@ -100,7 +117,7 @@ double affordable_references(const Scene& scene, const Photons& photons, const P
     std::vector<char> is_lit(patches.count, 0);
     bool caustics = false;
     for (const Photon& p : photons.records) {
-        is_lit[patches.of_side[2 * p.triangle + p.side()]] = 1;
+        is_lit[patches.at(2 * size_t(p.triangle) + p.side(), p.position)] = 1;
         caustics |= is_caustic(p.path());
     }
     const auto lamps = uint(scene.lights.size());
@@ -121,9 +138,9 @@ struct Partition {
     static constexpr float largest_floor = 0.5f;   // of the radius
     static constexpr float smallest_floor = 0.1f;  // below it the overhang is tightened too
 
-    Partition(const Scene& scene, const Photons& photons, const BakeSettings& settings)
+    Partition(const Scene& scene, const RayCaster& caster, const Photons& photons, const BakeSettings& settings)
         : patches(group_triangles(scene, patch_size_in_radii * settings.radius)),
-          shapes(shapes_of(scene, patches)),
+          shapes(cut_shapes(scene, settings.radius, patches)),
           neighbours(shapes, patch_radii(shapes, settings.radius, largest_floor * settings.radius),
                      settings.neighbour_angle_deg, settings.radius) {
         const double affordable = affordable_references(scene, photons, patches, shapes, settings);
@@ -132,11 +149,16 @@ struct Partition {
         for (int tries = 0; tries < 24; ++tries, floor *= 0.75f) {
             radii = patch_radii(shapes, settings.radius, floor, overhang);
             if (sample_references(
-                    {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours}, 20000) <
-                affordable)
+                    {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours, caster},
+                    20000) < affordable)
                 break;
             if (floor < smallest_floor * settings.radius) overhang *= 0.8f;
         }
+    }
+    static std::vector<PatchShape> cut_shapes(const Scene& scene, float radius, Patches& patches) {
+        std::vector<PatchShape> shapes = shapes_of(scene, patches);
+        cut_patches(scene, radius, patches, shapes);
+        return shapes;
     }
     Patches patches;
     std::vector<PatchShape> shapes;
@@ -159,11 +181,12 @@ void append_cells(const std::vector<std::vector<uint>>& starts, size_t first_gri
 }
 
 /// Appends the grids of a set of photons and which triangles they belong to; returns the patch of each grid.
-std::vector<uint> append_grids(const Scene& scene, const Partition& partition, const std::vector<Photon>& photons,
-                               PhotonMap& map) {
+std::vector<uint> append_grids(const Scene& scene, const RayCaster& caster, const Partition& partition,
+                               const std::vector<Photon>& photons, PhotonMap& map) {
     const References references = find_references({scene, photons, partition.patches, partition.shapes, partition.radii,
-                                                   map.settings.neighbour_angle_deg, partition.neighbours});
-    const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map);
+                                                   map.settings.neighbour_angle_deg, partition.neighbours, caster});
+    std::vector<SurfaceGrid> cuts;
+    const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map, cuts);
     const size_t first_grid = map.grids.size(), first_place = map.places.size();
     const size_t end = first_place + references.photons.size();
     map.grids.resize(first_grid + kept.size());
@@ -179,6 +202,7 @@ std::vector<uint> append_grids(const Scene& scene, const Partition& partition, c
                               map);
     });
     append_cells(starts, first_grid, map);
+    map.grids.insert(map.grids.end(), cuts.begin(), cuts.end());
     return kept;
 }
 
@@ -191,8 +215,15 @@ std::vector<uint> find_coverage(const Scene& scene, const RayCaster& caster, con
     std::vector<CoverageLevels> coverage(nodes.size(), CoverageLevels{1, 1, 1, 1});
     std::vector<std::vector<uint>> others(kept.size());
     parallel_for(kept.size(), [&](size_t m) {
-        const uint first = map.grids[m].lattice.first_node;
-        find_flat_coverage(scene, caster, map, m, partition.shapes[kept[m]], &nodes[first], &coverage[first], others[m]);
+        const SurfaceLattice& lattice = map.grids[m].lattice;
+        const PatchShape& shape = partition.shapes[kept[m]];
+        if (!shape.outline.empty()) {  // walls stand around it
+            for (uint i = 0; i < lattice.columns * lattice.rows; ++i)
+                if (nodes[lattice.first_node + i].exists()) others[m].push_back(i);
+            return;
+        }
+        find_flat_coverage(scene, caster, map, m, shape, &nodes[lattice.first_node], &coverage[lattice.first_node],
+                           others[m]);
     });
     Neighbourhoods wanted(1.01f * radius);
     for (size_t m = 0; m < kept.size(); ++m) {
@@ -204,7 +235,7 @@ std::vector<uint> find_coverage(const Scene& scene, const RayCaster& caster, con
     const std::vector<Photon> samples =
         sample_surfaces(scene, caster, partition.patches, wanted, 0.03f * radius * radius, clearance_of(radius));
     const References references = find_references({scene, samples, partition.patches, partition.shapes, partition.radii,
-                                                   map.settings.neighbour_angle_deg, partition.neighbours});
+                                                   map.settings.neighbour_angle_deg, partition.neighbours, caster});
     sample_coverage(map, nodes, samples, references, kept, others, coverage);
     return pack_coverage(coverage);
 }
@@ -214,6 +245,7 @@ std::vector<NodePoint> add_lattices(const Scene& scene, const RayCaster& caster,
                                     const std::vector<uint>& kept, PhotonMap& map) {
     std::vector<PatchShape> shapes;
     for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
+    shapes.resize(map.grids.size());  // cuts have none
     std::vector<NodePoint> nodes = lay_lattices(scene, shapes, nodes_apart * map.settings.radius, map);
     if (!map.settings.direct_in_photons) {
         map.visible_lamps = find_visibility(scene, caster, map, nodes);
@@ -239,17 +271,20 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     map.flux_scale = flux_scale_of(photons.records);
     for (const LightBalance& light : photons.lights) map.emitted.push_back(light.emitted);
 
-    const Partition partition(scene, photons, settings);
+    const Partition partition(scene, caster, photons, settings);
     std::vector<Photon> caustic, others;
     for (const Photon& p : photons.records)
         if (is_caustic(p.path())) caustic.push_back(p);
     if (!caustic.empty())
         std::copy_if(photons.records.begin(), photons.records.end(), std::back_inserter(others),
                      [](const Photon& p) { return !is_caustic(p.path()); });
-    const std::vector<uint> kept = append_grids(scene, partition, caustic.empty() ? photons.records : others, map);
+    const std::vector<uint> kept =
+        append_grids(scene, caster, partition, caustic.empty() ? photons.records : others, map);
     const std::vector<NodePoint> nodes = add_lattices(scene, caster, partition, kept, map);
     if (caustic.empty()) return map;
-    map.caustic_grids = uint(append_grids(scene, partition, caustic, map).size());
+    const size_t others_end = map.grids.size();
+    append_grids(scene, caster, partition, caustic, map);
+    map.caustic_grids = uint(map.grids.size() - others_end);
     if (map.has_visible_lamps()) add_smooth_caustics(scene, nodes, map);
     return map;
 }

@@ -88,7 +88,7 @@ double triangle_area(const Scene& scene, size_t triangle) {
 
 /// The area a sample of each triangle stands for: at most `area`, and a patch has at least samples_of_patch.
 std::vector<float> areas_of_samples(const Scene& scene, const Patches& patches, float area) {
-    std::vector<double> patch_areas(patches.count, 0);
+    std::vector<double> patch_areas(patches.count + patches.cuts.size(), 0);  // of the whole when it is cut
     for (size_t t = 0; t < scene.triangles.size(); ++t)
         for (size_t side = 2 * t; side < 2 * t + 2; ++side)
             patch_areas[patches.of_side[side]] += triangle_area(scene, t);
@@ -192,6 +192,7 @@ void sample_coverage(const PhotonMap& map, const std::vector<NodePoint>& nodes, 
         if (nodes_of_map[m].empty()) return;
         const SurfaceGrid& grid = map.grids[m];
         const SurfaceLattice& lattice = grid.lattice;
+        if (grid.columns == 0) return;
         const uint* all = references.photons.data();
         const MapSamples own(grid, samples, all + references.starts[patch_of_map[m]],
                              all + references.starts[patch_of_map[m] + 1]);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "maps/cuts.h"
 #include "trace/ray_caster.h"
 
 namespace lw {
@@ -16,13 +17,12 @@ constexpr float most_nodes_across = 16384;
 /// The triangle sides of each map: those of map m are sides[starts[m]] .. sides[starts[m + 1] - 1].
 struct SidesOfMaps {
     explicit SidesOfMaps(const PhotonMap& map) : starts(map.grids.size() + 1, 0) {
-        for (uint m : map.triangle_maps)
-            if (m != no_map) ++starts[m + 1];
+        for (uint index : map.triangle_maps) map.for_each_map(index, [&](uint m) { ++starts[m + 1]; });
         for (size_t m = 1; m < starts.size(); ++m) starts[m] += starts[m - 1];
         sides.resize(starts.back());
         std::vector<uint> next(starts.begin(), starts.end() - 1);
         for (size_t side = 0; side < map.triangle_maps.size(); ++side)
-            if (map.triangle_maps[side] != no_map) sides[next[map.triangle_maps[side]]++] = uint(side);
+            map.for_each_map(map.triangle_maps[side], [&](uint m) { sides[next[m]++] = uint(side); });
     }
     std::vector<uint> starts, sides;
 };
@@ -43,6 +43,23 @@ SurfaceLattice fit_lattice(const PatchShape& shape, const SurfaceGrid& grid, flo
     return lattice;
 }
 
+/// The outline of a piece in the frame of its lattice, drawn in by so little that points on it lie on its own side of
+/// walls.
+std::vector<vec2> outline_in(const PatchShape& shape, const SurfaceLattice& lattice) {
+    std::vector<vec2> outline;
+    vec2 middle(0);
+    for (vec2 p : shape.outline) {
+        outline.push_back(p - vec2(shape.low));
+        middle += outline.back() / float(shape.outline.size());
+    }
+    for (vec2& p : outline) {
+        const vec2 inwards = middle - p;
+        p += inwards *
+             std::min(0.5f, 2e-3f * std::max(lattice.step.x, lattice.step.y) / std::max(length(inwards), 1e-20f));
+    }
+    return outline;
+}
+
 /// Weights of the second and third corner of the point of triangle abc (in 2D) nearest to the origin.
 vec2 nearest_barycentrics(vec2 a, vec2 b, vec2 c, vec2& nearest) {
     const vec3 p = closest_point_on_triangle(vec3(0), vec3(a, 0), vec3(b, 0), vec3(c, 0));
@@ -54,9 +71,10 @@ vec2 nearest_barycentrics(vec2 a, vec2 b, vec2 c, vec2& nearest) {
     return clamp(vec2(v, w), vec2(0), vec2(1));
 }
 
-/// Offers one triangle side to the nodes around it.
+/// Offers one triangle side to the nodes around it; where a map is cut, only what lies inside its `outline`, in the
+/// lattice's frame.
 void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& locals, uint triangle,
-                 std::vector<NodePoint>& nodes) {
+                 const std::vector<vec2>& outline, std::vector<NodePoint>& nodes) {
     const std::array<vec2, 3> corners{vec2(locals[0]), vec2(locals[1]), vec2(locals[2])};
     const vec2 low = min(corners[0], min(corners[1], corners[2])), high = max(corners[0], max(corners[1], corners[2]));
     const auto node = [](float value, uint count) { return uint(clamp(value, 0.0f, float(count - 1))); };
@@ -69,8 +87,13 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
         for (uint x = x0; x <= x1; ++x) {
             NodePoint& point = nodes[lattice.first_node + y * lattice.columns + x];
             const vec2 at = vec2(float(x), float(y)) * lattice.step;
+            const vec2 goal = outline.empty() ? at : nearest_in_outline(outline, at);
             vec2 nearest;
-            const vec2 weights = nearest_barycentrics(corners[0] - at, corners[1] - at, corners[2] - at, nearest);
+            const vec2 weights = nearest_barycentrics(corners[0] - goal, corners[1] - goal, corners[2] - goal, nearest);
+            if (!outline.empty() && length(nearest_in_outline(outline, goal + nearest) - goal - nearest) >
+                                        1e-3f * std::max(lattice.step.x, lattice.step.y))
+                continue;
+            nearest += goal - at;
             const float squared = dot(nearest, nearest);
             if (squared > farthest2) continue;
             const float distance2 =
@@ -93,6 +116,7 @@ std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchS
     uint64_t count = 0;
     for (size_t m = 0; m < map.grids.size(); ++m) {
         SurfaceLattice& lattice = map.grids[m].lattice;
+        if (map.grids[m].columns == 0) continue;
         lattice = fit_lattice(shapes[m], map.grids[m], spacing);
         lattice.first_node = uint(count);
         count += uint64_t(lattice.columns) * lattice.rows;
@@ -104,6 +128,7 @@ std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchS
     parallel_for(map.grids.size(), [&](size_t m) {
         const SurfaceGrid& grid = map.grids[m];
         const SurfaceLattice& lattice = grid.lattice;
+        const std::vector<vec2> outline = outline_in(shapes[m], lattice);
         for (uint i = sides.starts[m]; i < sides.starts[m + 1]; ++i) {
             const uint triangle = sides.sides[i] / 2;
             std::array<vec3, 3> corners;
@@ -112,7 +137,7 @@ std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchS
                 corners[size_t(c)] = vec3(vec2(dot(offset, grid.u_axis), dot(offset, grid.v_axis)) - lattice.low,
                                           dot(offset, grid.normal));
             }
-            place_nodes(lattice, corners, triangle, nodes);
+            place_nodes(lattice, corners, triangle, outline, nodes);
         }
     });
     return nodes;

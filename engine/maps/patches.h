@@ -8,9 +8,26 @@
 
 namespace lw {
 
+/// A plane that parts the pieces of a patch: a wall stands along it.
+struct PatchCut {
+    vec3 point, up;
+    uint front, back;  // on the side that `up` points to and on the other: a patch, or count + another cut
+};
+
 struct Patches {
-    std::vector<uint> of_side;  // 2 per triangle (front, back): patch
+    std::vector<uint> of_side;  // 2 per triangle (front, back): patch, or count + cut
     uint count = 0;
+    std::vector<PatchCut> cuts{};  // after those that lead to them
+
+    /// The patch of a point of a triangle side.
+    uint at(size_t side, vec3 position) const {
+        uint id = of_side[side];
+        while (id >= count) {
+            const PatchCut& cut = cuts[id - count];
+            id = dot(position - cut.point, cut.up) > 0 ? cut.front : cut.back;
+        }
+        return id;
+    }
 };
 
 /// Where a patch lies: a box in its own frame, anchored at a corner of one of its triangles.
@@ -22,6 +39,7 @@ struct PatchShape {
     uint triangle = 0;                                       // one of its triangles
     uint triangles = 0;                                      // how many it has
     float cos_spread = 1;                                    // least cosine of the normal and those of its triangles
+    std::vector<vec2> outline{};  // of a piece of a cut patch, in u and v: convex, counter-clockwise
 
     vec3 to_local(vec3 p) const { return {dot(p - anchor, u_axis), dot(p - anchor, v_axis), dot(p - anchor, normal)}; }
 };

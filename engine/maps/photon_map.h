@@ -26,7 +26,7 @@ struct PhotonMap {
     std::vector<uint64_t> emitted;    // photons emitted per light
     std::vector<uint> triangle_maps;  // 2 per triangle: map of the front side, of the back side, or no_map; then, when
                                       // there are caustics, 2 per triangle again: their maps
-    std::vector<SurfaceGrid> grids;   // per map; those of caustics come last and have no lattice
+    std::vector<SurfaceGrid> grids;   // per map, then the cuts; those of caustics come last and have no lattice
     uint caustic_grids = 0;           // how many those are; their photons (path_caustic) are in no other map
     std::vector<uint> cell_starts;    // cells of all maps + 1
     std::vector<PhotonPlace> places;  // 8 bytes per reference
@@ -47,6 +47,22 @@ struct PhotonMap {
         const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
         return size(triangle_maps, grids, cell_starts, places, fluxes, directions, coverage, visible_lamps, irradiance,
                     smooth_caustics, shadow_masks);
+    }
+
+    /// Calls visit(map) for every map in which points of a surface lie whose map is `index`: itself, or those behind
+    /// its cuts.
+    template <class Visit>
+    void for_each_map(uint index, const Visit& visit) const {
+        if (index == no_map) return;
+        if (grids[index].columns > 0) return visit(index);
+        for_each_map(grids[index].rows, visit);
+        for_each_map(grids[index].first_cell, visit);
+    }
+
+    /// The map of a point of a surface whose map is `index`.
+    uint map_at(uint index, vec3 position) const {
+        while (index != no_map && grids[index].columns == 0) index = behind_cut(grids[index], position);
+        return index;
     }
 
     uint sides_per_triangle() const { return caustic_grids > 0 ? 4 : 2; }

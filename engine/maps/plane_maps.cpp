@@ -21,16 +21,16 @@ PlaneMaps::PlaneMaps(const Scene& scene, const PhotonMap& map)
     : plane_(map.grids.size(), 1), matte_(map.grids.size(), 1), heights_(map.grids.size(), -1e30f) {
     std::vector<float> lowest(map.grids.size(), 1e30f);
     for (size_t side = 0; side < std::min(map.triangle_maps.size(), 2 * scene.triangles.size()); ++side) {
-        const uint m = map.triangle_maps[side];
-        if (m == no_map) continue;
-        const SurfaceGrid& grid = map.grids[m];
-        if (matte_[m] && !is_matte(scene.material_of(uint(side / 2)))) matte_[m] = 0;
-        for (int c = 0; c < 3; ++c) {
-            const uint vertex = scene.triangles[side / 2][c];
-            const float height = dot(scene.positions[vertex] - grid.origin, grid.normal);
-            heights_[m] = std::max(heights_[m], height), lowest[m] = std::min(lowest[m], height);
-            if (std::abs(dot(scene.normals[vertex], grid.normal)) < least_cos_of_plane) matte_[m] = 0;
-        }
+        map.for_each_map(map.triangle_maps[side], [&](uint m) {
+            const SurfaceGrid& grid = map.grids[m];
+            if (matte_[m] && !is_matte(scene.material_of(uint(side / 2)))) matte_[m] = 0;
+            for (int c = 0; c < 3; ++c) {
+                const uint vertex = scene.triangles[side / 2][c];
+                const float height = dot(scene.positions[vertex] - grid.origin, grid.normal);
+                heights_[m] = std::max(heights_[m], height), lowest[m] = std::min(lowest[m], height);
+                if (std::abs(dot(scene.normals[vertex], grid.normal)) < least_cos_of_plane) matte_[m] = 0;
+            }
+        });
     }
     for (size_t m = 0; m < map.grids.size(); ++m) {
         const vec2 step = map.grids[m].lattice.step;

@@ -46,7 +46,7 @@ class Meter : public PhotonEstimator {
         const MapPlace place = place_on(map_of(hit.triangle, front), s.position);
         if (place.map != no_map) variance += add_reflected(place.grid, place, false, m);
         if (has_caustics)
-            if (const uint caustics = caustic_map_of(hit.triangle, front); caustics != no_map)
+            if (const uint caustics = map_at(caustic_map_of(hit.triangle, front), s.position); caustics != no_map)
                 variance += add_reflected(grid_at(caustics), place, true, m);
         if (has_direct)
             for (uint lamp = 0; lamp < light_count; ++lamp) variance += add_direct(lamp, m);

@@ -7,12 +7,13 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "trace/ray_caster.h"
+#include "maps/cuts.h"
 
 namespace lw {
 namespace {
 
 constexpr size_t most_tasks = 64;
+constexpr float same_plane = 0.999f;        // least cosine between normals
 constexpr uint first_of_photon = 1u << 31;  // marks the map of the photon's own side
 
 /// The maps of the photons [begin, end) one after another, and how many references each map has among them.
@@ -35,13 +36,14 @@ class MapFinder {
 
     /// Appends every map that refers to the photon, its own first and marked.
     void find(const Photon& photon, std::vector<uint>& found) const {
-        const uint own = in_.patches.of_side[2 * photon.triangle + photon.side()];
+        const uint own = in_.patches.at(2 * photon.triangle + photon.side(), photon.position);
         found.push_back(own | first_of_photon);
         const std::span<const uint> near = in_.neighbours.near(own, photon.position);
         if (near.empty()) return;
         const vec3 normal = normal_of(photon);
         for (uint patch : near)
-            if (belongs(photon.position, normal, patch)) found.push_back(patch);
+            if (belongs(photon.position, normal, patch) && is_in_sight(photon.position, normal, patch))
+                found.push_back(patch);
     }
 
   private:
@@ -64,17 +66,41 @@ class MapFinder {
         if (dot(beside, beside) > largest_ * largest_) return false;
         const float cosine = dot(shape.normal, normal);
         if (cosine < cos_angle_) return false;
-        if (shape.triangles == 1) distance2 = triangle_distance2(position, shape.triangle);
+        if (shape.triangles == 1 || !shape.outline.empty()) {
+            const vec3 d = position - nearest_point(position, local, shape);
+            distance2 = dot(d, d);
+        }
         const float height = outside.z - 0.01f * largest_;
         const float sine2 = std::max(0.0f, 1 - cosine * cosine) * 1.2f + 1e-4f;
         return distance2 <= radius2 && (height <= 0 || height * height <= sine2 * distance2);
     }
 
-    float triangle_distance2(vec3 position, uint triangle) const {
-        const uvec3 c = in_.scene.triangles[triangle];
-        const vec3 d = position - closest_point_on_triangle(position, in_.scene.positions[c.x],
-                                                            in_.scene.positions[c.y], in_.scene.positions[c.z]);
-        return dot(d, d);
+    /// The point of a patch nearest to `position`, which is at `local` in its frame.
+    vec3 nearest_point(vec3 position, vec3 local, const PatchShape& shape) const {
+        if (shape.triangles == 1 && shape.outline.empty()) {
+            const uvec3 c = in_.scene.triangles[shape.triangle];
+            return closest_point_on_triangle(position, in_.scene.positions[c.x], in_.scene.positions[c.y],
+                                             in_.scene.positions[c.z]);
+        }
+        vec3 nearest = clamp(local, shape.low, shape.high);
+        if (!shape.outline.empty()) nearest = vec3(nearest_in_outline(shape.outline, vec2(local)), nearest.z);
+        return shape.anchor + shape.u_axis * nearest.x + shape.v_axis * nearest.y + shape.normal * nearest.z;
+    }
+
+    /// Whether no wall stands between a photon and a patch of the same plane: a ray a little above it, and a little
+    /// beyond the patch's border, meets nothing.
+    bool is_in_sight(vec3 position, vec3 normal, uint patch) const {
+        const PatchShape& shape = in_.shapes[patch];
+        if (shape.cos_spread < same_plane || dot(shape.normal, normal) < same_plane) return true;
+        vec3 way = nearest_point(position, shape.to_local(position), shape) - position;
+        way -= normal * dot(way, normal);
+        const float distance = length(way);
+        const float lift = std::max(height_of_cuts(largest_), 8 * in_.caster.epsilon());
+        if (!(distance > 0)) return true;
+        if (in_.caster.nearest(in_.caster.offset(position, normal), normal, lift))
+            return false;                  // under a leaning wall
+        const float beyond = 1.1f * lift;  // a wall may lean by 45 degrees
+        return !in_.caster.nearest(position + normal * lift, way / distance, distance + beyond);
     }
 
     const ReferenceInput& in_;

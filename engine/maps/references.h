@@ -8,6 +8,7 @@
 #include "maps/patches.h"
 #include "maps/photon_map.h"
 #include "photons/photon.h"
+#include "trace/ray_caster.h"
 
 namespace lw {
 
@@ -26,6 +27,7 @@ struct ReferenceInput {
     const std::vector<float>& radii;  // search radius of each patch, m; at most those of the neighbours
     float neighbour_angle_deg;
     const Neighbours& neighbours;
+    const RayCaster& caster;
 };
 
 constexpr float widest_overhang = 1.1f;
@@ -38,7 +40,8 @@ std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float larg
 /// A photon belongs to a patch when it lies within the patch's radius of its triangle (of the box around it, when the
 /// patch has several, and within the largest radius of its bounds), when its normal is within the angle of the patch's,
 /// and when its height over the patch is no more than what the angle between the two explains: a parallel sheet above
-/// or below does not belong.
+/// or below does not belong, nor does what lies behind a wall: on a plane, the nearest point of the patch must be in
+/// sight.
 References find_references(const ReferenceInput& input);
 
 /// References per photon from about `samples` photons spread over the whole set.

@@ -23,7 +23,7 @@ class CausticNodes : public PhotonEstimator {
         if (!nodes_[node].exists()) return false;
         const Surface s = surface_at(nodes_[node].triangle, nodes_[node].barycentrics);
         const bool front = dot(s.geometric_normal, map_.grids[m].normal) >= 0;
-        const uint own = caustic_map_of(nodes_[node].triangle, front);
+        const uint own = map_at(caustic_map_of(nodes_[node].triangle, front), s.position);
         if (own == no_map) return true;
         const SurfaceGrid& grid = map_.grids[own];
         const SurfaceLattice& lattice = map_.grids[m].lattice;

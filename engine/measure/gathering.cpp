@@ -89,7 +89,7 @@ void Gatherer::add_reflected(const Seen& at, Gathering& to) const {
 /// Light of lamps by mirrors and lenses alone, far sharper: from its own grids with the bandwidth of a picture. Meshes
 /// are left out where the path goes on and finds them itself.
 void Gatherer::add_caustics(const Seen& at, bool with_meshes, Gathering& to) const {
-    const uint own = has_caustics ? caustic_map_of(at.triangle, at.front) : no_map;
+    const uint own = has_caustics ? map_at(caustic_map_of(at.triangle, at.front), at.surface.position) : no_map;
     if (own == no_map) return;
     const SurfaceGrid& grid = grid_at(own);
     const float radius = caustic_radius(grid, position_in_grid(grid, at.surface.position));

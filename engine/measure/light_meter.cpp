@@ -109,7 +109,7 @@ void LightMeter::add_caustic_on(const Sensor& sensor, PhotonShares& shares, Read
     if (!hit) return;
     const Surface s = surface_at(hit->triangle, hit->barycentrics);
     const bool front = dot(s.geometric_normal, sensor.normal) > 0;
-    const uint own = caustic_map_of(hit->triangle, front);
+    const uint own = map_at(caustic_map_of(hit->triangle, front), s.position);
     if (own == no_map) return;
     const MapPlace at = place_on(map_of(hit->triangle, front), s.position);
     const SurfaceGrid& grid = grid_at(own);

@@ -69,7 +69,8 @@ std::vector<Reflection> grow_patches(const std::vector<MirroredLight>& light, co
     for (uint pixel = 0; pixel < light.size(); ++pixel)
         for (const auto& [cause, value] : light[pixel])
             if (value >= limit) bright.try_emplace(cause, view.size(), char(0)).first->second[pixel] = 1;
-    for (auto& [cause, left] : bright)
+    for (auto& [cause, mask] : bright) {
+        std::vector<char>& left = mask;
         for (uint seed = 0; seed < left.size(); ++seed) {
             if (!left[seed]) continue;
             Reflection patch;
@@ -82,6 +83,7 @@ std::vector<Reflection> grow_patches(const std::vector<MirroredLight>& light, co
             std::sort(patch.pixels.begin(), patch.pixels.end());
             patches.push_back(std::move(patch));
         }
+    }
     return patches;
 }
 

@@ -69,10 +69,9 @@ class Display {
     }
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
-    ~Display() {
-        unsetenv("DISPLAY");
-        end(process_);
-    }
+    ~Display() { leave(SIGTERM); }
+    /// Goes away at once, as when its server crashes.
+    void vanish() { leave(SIGKILL); }
 
     /// What the screen shows, from the X window dump that Xvfb keeps: a header of big-endian words, then its pixels.
     Rgb8Image screen() const {
@@ -91,6 +90,12 @@ class Display {
     }
 
   private:
+    void leave(int signal) {
+        unsetenv("DISPLAY");
+        if (process_ > 0) kill(process_, signal), waitpid(process_, nullptr, 0);
+        process_ = 0;
+    }
+
     TempFolder folder_;
     pid_t process_ = 0;
 };

@@ -5,6 +5,7 @@
 #include "app/display.h"
 #include "image/exr.h"
 #include "image/png.h"
+#include "programs/fault.h"
 
 namespace lw {
 namespace {
@@ -145,6 +146,42 @@ TEST(Window, GoesOnWithAMapThatCannotBeSavedAndRefusesToOverwriteAMalformedFile)
     const Image picture = read_exr(window.screenshot() + ".exr");
     EXPECT_GT(mean_of(picture, "illuminance"), 0);
     expect_clean_end(window.close());
+}
+
+TEST(Window, EndsWithOneLineWhenItsDisplayGoesAway) {
+    SKIP_WITHOUT_DISPLAY();
+    Display display;
+    WalkingWindow window("cube.gltf", {"--photons", "5000"});
+    ASSERT_TRUE(window.waits_for(" photons\n"));
+    const auto lines = [&] {
+        const std::string said = window.process().err_so_far();
+        return std::count(said.begin(), said.end(), '\n');
+    };
+    const auto before = lines();
+    display.vanish();
+    const Outcome outcome = window.wait();
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), before + 1) << outcome.err;
+    EXPECT_EQ(window.folder().names(), (Words{"cube.gltf", "cube.pmap", "window"}));
+}
+
+TEST(Window, GoesOnWhenItsDeviceIsLostAndGivesUpWhenItIsLostAgain) {
+    SKIP_WITHOUT_DISPLAY();
+    const Display display;
+    {
+        const Fault fault("lost-once=60");
+        WalkingWindow window("cube.gltf", {"--photons", "5000"});
+        ASSERT_TRUE(window.waits_for("the graphics device was lost: starting it again"));
+        const Image picture = read_exr(window.screenshot() + ".exr");
+        EXPECT_GT(mean_of(picture, "illuminance"), 0);
+        expect_clean_end(window.close());
+    }
+    const Fault fault("lost=60");
+    WalkingWindow window("cube.gltf", {"--photons", "5000"});
+    const Outcome outcome = window.wait();
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("lumenwalk: Vulkan: the device was lost twice within a minute\n"), std::string::npos)
+        << outcome.err;
 }
 
 TEST(Window, SaysInOneLineThatThereIsNoDisplay) {

@@ -14,6 +14,7 @@
 #include "base/random.h"
 #include "maps/build.h"
 #include "photons/shoot.h"
+#include "robustness/room.h"
 #include "scene/gltf.h"
 
 namespace lw {
@@ -168,6 +169,82 @@ TEST_F(MapFile, SignedGridsThatLeadOutOfTheirArraysAreRefused) {
     refused("axis", [](SurfaceGrid& g) { g.u_axis.x = 1e30f; });
     refused("cell size", [](SurfaceGrid& g) { g.cell_size = 1e-30f; });
     refused("radius", [](SurfaceGrid& g) { g.radius = INFINITY; });
+}
+
+/// A map cut along a wall: what the cuts lead to is checked, so that no way through them leads out or round.
+TEST_F(MapFile, WithCutsRoundTripsAndIsRefusedWhenTheyLeadAstray) {
+    test::Room room = test::plain_room();
+    room.walls = test::joined(room.walls, test::quad({2, 0, 0}, {0, 0, 5}, {0, 3, 0}));
+    const test::Baked baked(room, 5000);
+    const auto first = std::find_if(baked.map.grids.begin(), baked.map.grids.end(),
+                                    [](const SurfaceGrid& g) { return g.columns == 0; });
+    ASSERT_NE(first, baked.map.grids.end()) << "no map is cut";
+    const auto cut = size_t(first - baked.map.grids.begin());
+    save_photon_map(path, baked.map);
+    EXPECT_EQ(load_photon_map(path, baked.scene).grids.size(), baked.map.grids.size());
+    const auto refused = [&](const char* what, const auto& damage) {
+        PhotonMap bad = baked.map;
+        damage(bad);
+        save_photon_map(path, bad);
+        EXPECT_THROW(load_photon_map(path, baked.scene), Error) << what;
+    };
+    refused("to itself", [&](PhotonMap& m) { m.grids[cut].rows = uint(cut); });
+    refused("beyond the grids", [&](PhotonMap& m) { m.grids[cut].first_cell = uint(m.grids.size()); });
+    refused("no number", [&](PhotonMap& m) { m.grids[cut].origin.x = NAN; });
+    refused("no direction", [&](PhotonMap& m) { m.grids[cut].normal.y = 1e30f; });
+    refused("with a lattice", [&](PhotonMap& m) { m.grids[cut].lattice.columns = 3; });
+    refused("too many one after the other", [&](PhotonMap& m) {
+        SurfaceGrid next = m.grids[cut];
+        next.rows = next.first_cell = no_map;
+        for (uint i = 0; i <= most_cuts_deep + 1; ++i) {
+            if (i > 0) m.grids.back().rows = uint(m.grids.size());
+            m.grids.push_back(next);
+        }
+        m.grids.back().rows = 0;
+    });
+}
+
+/// Each of these was found by taking its check away: no quick test failed.
+TEST_F(MapFile, WhatOnlyOneCheckRefusesIsNamed) {
+    const auto told = [&] {
+        try {
+            load_photon_map(path, scene);
+        } catch (const Error& e) {
+            return std::string(e.what());
+        }
+        return std::string("accepted");
+    };
+    const auto refused = [&](const char* named, const auto& damage) {
+        PhotonMap bad = map;
+        damage(bad);
+        save_photon_map(path, bad);
+        EXPECT_NE(told().find(named), std::string::npos) << named << ": " << told();
+    };
+    refused("lattices and coverage do not agree", [](PhotonMap& m) { m.coverage.push_back(0); });
+    refused("cells and grids do not agree", [](PhotonMap& m) { m.cell_starts.push_back(m.cell_starts.back()); });
+    refused("cells and references do not agree", [](PhotonMap& m) {
+        m.places.push_back(m.places.back());
+        m.fluxes.push_back(0);
+    });
+    refused("it has no cells", [](PhotonMap& m) { m.cell_starts.clear(); });
+    refused("the number of lamps", [](PhotonMap& m) { m.emitted.push_back(1); });
+    refused("more grids of caustics than grids", [](PhotonMap& m) { m.caustic_grids = uint(m.grids.size()) + 1; });
+    refused("the number of triangles", [](PhotonMap& m) { m.triangle_maps.push_back(no_map); });
+    refused("the record arrays differ", [](PhotonMap& m) { m.fluxes.pop_back(); });
+    refused("its settings are not valid", [](PhotonMap& m) { m.settings.neighbour_angle_deg = 120; });
+    const auto changed = [&](const char* named, size_t at, char byte) {
+        std::string damaged = bytes;
+        damaged[at] = byte;
+        write(damaged);
+        EXPECT_NE(told().find(named), std::string::npos) << named << ": " << told();
+    };
+    changed("not a Lumenwalk photon map", 0, 'X');
+    changed("written by another version", 8, 9);
+    changed("cut short or its section sizes are wrong", 87, 1);
+    write(bytes + "more");
+    EXPECT_NE(told().find("bytes after its last section"), std::string::npos) << told();
+    std::filesystem::remove(path);
+    EXPECT_NE(told().find("no photon map here"), std::string::npos) << told();
 }
 
 TEST_F(MapFile, LambertSceneStoresNoDirections) { EXPECT_FALSE(map.has_directions()); }

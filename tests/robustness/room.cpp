@@ -1,6 +1,8 @@
 #include "robustness/room.h"
 
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
@@ -115,6 +117,15 @@ Soup moved(Soup soup, const std::function<glm::dvec3(glm::dvec3)>& move) {
 Soup joined(Soup a, const Soup& b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
+}
+
+void tell_case(const std::string& what, const std::string& expected, const char* format, ...) {
+    char got[256];
+    va_list values;
+    va_start(values, format);
+    std::vsnprintf(got, sizeof got, format, values);
+    va_end(values);
+    std::printf("| %s | %s | %s |\n", what.c_str(), expected.c_str(), got);
 }
 
 Room plain_room() {

@@ -60,6 +60,10 @@ struct Difference {
     double mean_ratio = 0, rmse = 0;  // of b against a, relative to the mean of a
     size_t compared = 0;
 };
+/// Prints a row of the table of hard cases (tools/hard-cases): the case, what is expected, what came out.
+void tell_case(const std::string& what, const std::string& expected, const char* format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 /// Over the places that both met, to within a centimetre; `scale` is what b is divided by.
 Difference difference(const Readings& a, const Readings& b, double scale = 1);
 

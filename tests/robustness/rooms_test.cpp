@@ -2,6 +2,7 @@
 // seeds. Prints the rows of the table in docs/robustness.md.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -18,6 +19,12 @@ namespace {
 
 constexpr uint modes[] = {gather_mode_cached, gather_mode_smooth, gather_mode_exact};
 constexpr const char* mode_names[] = {"exact", "smooth", "cached"};
+
+/// The name of a disguise as words.
+std::string words_of(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+}
 
 /// The plain room's readings of two seeds: what is expected, and the noise.
 struct Expected {
@@ -181,8 +188,10 @@ TEST_P(Robustness, TheRoomHasTheSameLight) {
         const Readings readings = read(baked, room, mode);
         for (double lux : readings.lux) ASSERT_TRUE(std::isfinite(lux));
         const Difference d = difference(expected(mode).readings, readings, GetParam().scale);
-        std::printf("| %s | %s | RMSE <= %.1f %%, bias <= 1 %% | RMSE %.1f %%, bias %+.2f %% |\n", GetParam().name,
-                    mode_names[mode], 200 * expected(mode).noise, 100 * d.rmse, 100 * (d.mean_ratio - 1));
+        char wanted[64];
+        std::snprintf(wanted, sizeof wanted, "RMSE <= %.1f %%, bias <= 1 %%", 200 * expected(mode).noise);
+        tell_case(words_of(GetParam().name) + ", " + mode_names[mode], wanted, "RMSE %.1f %%, bias %+.2f %%",
+                  100 * d.rmse, 100 * (d.mean_ratio - 1));
         EXPECT_GT(d.compared, 550u) << mode_names[mode];
         EXPECT_NEAR(d.mean_ratio, 1, 0.01) << mode_names[mode];
         EXPECT_LE(d.rmse, 2 * expected(mode).noise) << mode_names[mode];
@@ -207,6 +216,8 @@ TEST(RobustnessOfNodes, AShearedNodeIsTheShearOfItsVertices) {
     double sums[2] = {0, 0};
     for (const Photon& p : a.photons.records) sums[0] += double(p.flux.y);
     for (const Photon& p : b.photons.records) sums[1] += double(p.flux.y);
+    tell_case("sheared and mirrored by its node", "flux of its vertices sheared, +-1 %", "%+.2f %%",
+              100 * (sums[0] / sums[1] - 1));
     EXPECT_NEAR(sums[0] / sums[1], 1, 0.01);
     EXPECT_NEAR(double(length(a.scene.lights[0].position - b.scene.lights[0].position)), 0, 1e-4);
     for (size_t v = 0; v < a.scene.positions.size(); ++v)
@@ -256,8 +267,9 @@ TEST(RobustnessOnADevice, TheRoomHasTheSamePicture) {
             squares += std::pow(e - double(wanted.find("illuminance")->values[i]), 2);
         }
         const double rmse = std::sqrt(squares / double(got.pixel_count())) / mean;
-        std::printf("| %s | picture | RMSE <= 8 %%, bias <= 1 %% | RMSE %.1f %%, bias %+.2f %% |\n", disguise.name,
-                    100 * rmse, 100 * (mean_of(got.find("illuminance")->values) / mean - 1));
+        tell_case(words_of(disguise.name) + ", picture on the device", "RMSE <= 8 %, bias <= 1 %",
+                  "RMSE %.1f %%, bias %+.2f %%", 100 * rmse,
+                  100 * (mean_of(got.find("illuminance")->values) / mean - 1));
         EXPECT_NEAR(mean_of(got.find("illuminance")->values) / mean, 1, 0.01) << disguise.name;
         EXPECT_LT(rmse, 0.08) << disguise.name;
     }
@@ -290,6 +302,9 @@ TEST(RobustnessOnADevice, AnyCameraShowsLightThatIsANumber) {
                     middle.push_back(image.find("illuminance")->values[16 * 6 + 8]);
             }
     ASSERT_EQ(middle.size(), 3u);
+    tell_case("fields of view of 1, 60 and 170 degrees; cameras in walls, on the floor, outside",
+              "light in every pixel", "the middle reads %.1f, %.1f, %.1f lx", double(middle[0]), double(middle[1]),
+              double(middle[2]));
     EXPECT_NEAR(middle[0] / middle[1], 1, 0.05);
     EXPECT_NEAR(std::log2(middle[2] / middle[1]), 0, 1);  // a pixel of 170 degrees is a metre wide there
 }

@@ -206,6 +206,43 @@ TEST(GltfErrors, EveryIndexOutOfRangeIsNamed) {
     });
 }
 
+/// Each of these was found by taking its check away: no test failed.
+TEST(GltfErrors, WhatOnlyOneCheckRefusesIsNamed) {
+    const auto refused = [](const char* named, const auto& bend) {
+        GltfText g = square();
+        bend(g);
+        EXPECT_NE(message(g).find(named), std::string::npos) << named << ": " << message(g);
+    };
+    const auto with_material = [](GltfText& g, const Json& material) {
+        g.doc["materials"] = Json::array({material});
+        g.primitive()["material"] = 0;
+    };
+    refused("byteStride is smaller than an element", [](GltfText& g) { g.doc["bufferViews"][0]["byteStride"] = 4; });
+    refused("indices must be unsigned scalars", [](GltfText& g) {
+        g.primitive()["indices"] = g.accessor(std::vector<float>{0, 1, 2}, "SCALAR", 5126);
+    });
+    refused("differ in length", [](GltfText& g) { g.floats("NORMAL", {0, 0, 1}, "VEC3"); });
+    refused("has the wrong type", [](GltfText& g) { g.floats("NORMAL", {0, 1, 0, 1, 0, 1, 0, 1}, "VEC2"); });
+    refused("a sparse index is out of range", [](GltfText& g) {
+        const int places = g.accessor(std::vector<uint32_t>{9}, "SCALAR", 5125);
+        const int values = g.accessor(std::vector<float>{0, 0, 0}, "VEC3", 5126);
+        const auto view = [&](int accessor) { return g.doc["accessors"][size_t(accessor)]["bufferView"]; };
+        g.doc["accessors"][0]["sparse"] = {{"count", 1},
+                                           {"indices", {{"bufferView", view(places)}, {"componentType", 5125}}},
+                                           {"values", {{"bufferView", view(values)}}}};
+    });
+    refused("thicknessFactor must not be negative", [&](GltfText& g) {
+        with_material(g, {{"extensions", {{"KHR_materials_volume", {{"thicknessFactor", -1}}}}}});
+    });
+    refused("attenuationDistance must be positive", [&](GltfText& g) {
+        with_material(
+            g, {{"extensions", {{"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", -1}}}}}});
+    });
+    refused("ior must be 0 or at least 1", [&](GltfText& g) {
+        with_material(g, {{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}});
+    });
+}
+
 TEST(GltfErrors, LongCyclesAndTwoParents) {
     GltfText cycle = square();
     cycle.node()["children"] = {2};

@@ -17,7 +17,8 @@ std::vector<VisiblePoint> visible_points(const Scene& scene, const RayCaster& ca
         const bool back = dot(s.geometric_normal, direction) > 0;
         const float side = back ? -1.0f : 1.0f;
         points.push_back({s, side * s.geometric_normal, side * s.normal, -direction, pixel, hit->triangle,
-                          hit->barycentrics, map.triangle_maps[2 * hit->triangle + (back ? 1 : 0)]});
+                          hit->barycentrics,
+                          map.map_at(map.triangle_maps[2 * hit->triangle + (back ? 1 : 0)], s.position)});
     }
     return points;
 }
