@@ -3,7 +3,7 @@
 // shadows as sharp as masks and lattice. One text for C++ and GLSL. The including scope provides what gather.glsl and
 // rays.glsl need, the array emitters, the functions light_at, light_weight, profile_value, cell_word, shadow_mask, and the
 // constants has_mesh_lamps, has_profiles, has_emissive_textures, has_visible_lamps, has_shadow_masks, has_smooth_caustics,
-// has_shadow_rays, has_followed, light_count, shadow_rays, ray_epsilon, scene_size.
+// has_shadow_rays, has_followed, light_count, shadow_rays, lobe_paths (per pixel along a lobe), ray_epsilon, scene_size.
 
 /// Light that would arrive at a point from one place of a lamp at unit intensity, if nothing stood between.
 struct LightSample {
@@ -131,7 +131,7 @@ bool is_edge(uvec4 mask, vec2 f) LW_MEMBER {
 /// What a light sample counts beside a ray along the specular lobe that might meet the same lamp (power heuristic, Veach 1997).
 float share_of_sample(Surface s, vec3 n_shading, vec3 to_view, LightSample light) LW_MEMBER {
     float by_samples = float(max(shadow_rays, 1u)) * light.pdf;
-    float by_ray = lobe_pdf(s, n_shading, to_view, light.to_light);
+    float by_ray = float(lobe_paths) * lobe_pdf(s, n_shading, to_view, light.to_light);
     return by_samples * by_samples / max(by_samples * by_samples + by_ray * by_ray, 1e-30f);
 }
 

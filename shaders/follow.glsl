@@ -205,7 +205,8 @@ float share_of_ray(Surface s, ViewRay ray) LW_MEMBER {
     Light lamp = light_at(uint(s.light));
     if (lamp.type != light_mesh) return 1.0f;
     float by_samples = float(max(shadow_rays, 1u)) * point_pdf(lamp, ray.distance, dot(s.geometric_normal, ray.direction));
-    return ray.pdf * ray.pdf / max(ray.pdf * ray.pdf + by_samples * by_samples, 1e-30f);
+    float by_rays = float(lobe_paths) * ray.pdf;
+    return by_rays * by_rays / max(by_rays * by_rays + by_samples * by_samples, 1e-30f);
 }
 
 /// Where a path ends, and the light of the glowing surfaces on its way.

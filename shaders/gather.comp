@@ -40,6 +40,7 @@ layout(set = 1, binding = binding_ray_pixels, scalar) buffer ListedPixels { uint
 #define scene_size frame.scene_size
 #define shadow_rays frame.shadow_rays
 #define inverse_irradiance_scale frame.inverse_irradiance_scale
+#define lobe_paths unpack_following(frame.following).paths
 #define light_count uint(lights.length())
 #define bvh_node_count (uint(textureSize(bvh_nodes)) / 2u)
 

@@ -153,6 +153,7 @@ class PhotonEstimator : public SurfaceReader {
     const Emitter* emitters;
     uint shadow_rays;
     bool has_shadow_rays;
+    static constexpr uint lobe_paths = 1;
     static constexpr bool has_mesh_lamps = true, has_profiles = true;
     bool has_followed, looks_through;
     float followed_roughness;
