@@ -151,7 +151,7 @@ void toggle_recording(Session& s) {
     }
     const Path path = *s.recording;
     s.recording.reset();
-    if (path.keys.empty()) return;
+    if (path.keys.empty()) return tell(s, "nothing recorded: walk between the two presses of R");
     try {
         const std::filesystem::path file = free_name(s, "path.json");
         save_path(file, path);
