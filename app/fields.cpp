@@ -84,7 +84,7 @@ Survey survey_of(const Fields& fields, const std::vector<vec3>& factors, const s
     Survey survey;
     survey.ambiances = {{name, factors}};
     for (const Field& field : fields.fields)
-        if (!field.readings.empty()) survey.sets.push_back({field.set, field.readings});
+        if (!field.readings.empty()) survey.sets.push_back({field.set, field.readings, {}, {}});
     return survey;
 }
 

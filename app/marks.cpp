@@ -99,7 +99,7 @@ void draw_reflections(const Session& s, const ReflectionReport* report) {
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     const vec2 size = display();
     if (!report) {
-        draw_plate(list, 0.5f * size.x - 90, 12, "looking for reflections ...");
+        draw_plate(0.5f * size.x - 90, 12, "looking for reflections ...");
         return;
     }
     const vec2 pixel(size.x / float(report->width), size.y / float(report->height));
@@ -107,11 +107,11 @@ void draw_reflections(const Session& s, const ReflectionReport* report) {
         for (const OutlineEdge& e : outline_of(r, report->width))
             list->AddLine(ImVec2(float(e.x0) * pixel.x, float(e.y0) * pixel.y),
                           ImVec2(float(e.x1) * pixel.x, float(e.y1) * pixel.y), IM_COL32(255, 60, 200, 255), 2);
-        draw_plate(list, r.x * pixel.x + 8, r.y * pixel.y + 8, describe(s.world.scene, r), IM_COL32(255, 150, 225, 255));
+        draw_plate(r.x * pixel.x + 8, r.y * pixel.y + 8, describe(s.world.scene, r), IM_COL32(255, 150, 225, 255));
     }
     const std::string sum = std::to_string(report->found.size()) + " reflections, UGR " + format("%.1f", report->ugr) +
                             format(" (lamps alone %.1f)", report->ugr_lamps);
-    draw_plate(list, 0.5f * size.x - 120, 12, sum);
+    draw_plate(0.5f * size.x - 120, 12, sum);
 }
 
 void draw_legend(const Session& s) {

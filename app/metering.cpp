@@ -117,7 +117,7 @@ void save_fields(Session& s) {
         const Survey survey = survey_of(s.fields, factors_now(s.lighting),
                                         s.lighting.current.empty() ? "lamps as set" : s.lighting.current);
         const std::filesystem::path sums = free_name(s, "grids.csv"), points = free_name(s, "sensors.csv");
-        write_table(sums, fields_as_csv(survey, s.world.scene));
+        write_table(sums, fields_as_csv(survey));
         write_table(points, sensors_as_csv(survey, s.world.scene));
         tell(s, std::to_string(survey.sets.size()) + " grids saved in " + sums.string() + " and " +
                     points.filename().string());

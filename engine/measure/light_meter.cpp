@@ -161,7 +161,7 @@ Reading LightMeter::read(const Sensor& asked, size_t index, const MeterSettings&
     add_caustic_on(sensor, shares, reading);
     finish(shares, reading);
     // Back sides all around may also be a room whose faces are turned: then there is light.
-    reading.blocked = reading.blocked || (is_dark(reading) && is_inside(*this, caster_, sensor));
+    reading.blocked = reading.blocked || (is_dark(reading) && lw::is_inside(*this, caster_, sensor));
     return reading;
 }
 

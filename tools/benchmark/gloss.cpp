@@ -96,7 +96,7 @@ std::vector<bool> Measured::caustic_pixels(const TimedFrame& frame) const {
         if (!hit) continue;
         const PhotonEstimator::Seen seen = estimator.see(hit->triangle, hit->barycentrics, camera.position);
         Gathered light = estimator.no_light();
-        estimator.add_caustics(seen.triangle, seen.front, seen.at, seen.surface, seen.n_geometric, seen.n_shading,
+        estimator.add_caustics(seen.triangle, seen.front, 1, seen.at, seen.surface, seen.n_geometric, seen.n_shading,
                                seen.to_eye, light);
         lit[i] = 0.2126 * double(light.irradiance.x) + 0.7152 * double(light.irradiance.y) > 0.5 * mean;
     }

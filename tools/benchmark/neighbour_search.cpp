@@ -169,7 +169,7 @@ size_t MapGridSearch::collect(const Disc& disc, NearestPhotons& nearest) const {
     const auto& [grid, local, radius] = disc;
     const float r2 = radius * radius, size = grid.cell_size;
     size_t count = 0;
-    const auto cell = [size](float v, uint count) { return int(clamp(std::floor(v / size), -1.0f, float(count))); };
+    const auto cell = [size](float v, uint cells) { return int(clamp(std::floor(v / size), -1.0f, float(cells))); };
     const int y1 = std::min(cell(local.y + radius, grid.rows), int(grid.rows) - 1);
     for (int y = std::max(cell(local.y - radius, grid.rows), 0); y <= y1; ++y) {
         const float below = float(y) * size - local.y, dy = std::max({below, -below - size, 0.0f});
