@@ -247,8 +247,8 @@ TEST(Light, OfSensorsOnVerticesAndEdgesIsANumber) {
         double a = 0, b = 0;
         for (size_t lamp = 0; lamp < baked.scene.lights.size(); ++lamp) {
             ASSERT_TRUE(std::isfinite(edges[i].lamps[lamp].y) && edges[i].lamps[lamp].y >= 0) << i;
-            a += lux_of_lamp(edges[i], baked.scene, lamp);
-            b += lux_of_lamp(near[i], baked.scene, lamp);
+            a += lux_of_lamp(edges[i], lamp);
+            b += lux_of_lamp(near[i], lamp);
         }
         if (edges[i].blocked) {
             ++doubted;  // value_of() says so: it is told to be moved
