@@ -10,7 +10,6 @@ namespace {
 
 constexpr int longest_path = 1000;  // ends paths between surfaces that absorb nothing; 0.99^1000 is 4e-5
 constexpr int depth_of_roulette = 64;
-constexpr int branches = 4;  // into which a path splits where its light first meets a surface and is not stored
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
@@ -37,7 +36,6 @@ struct PhotonTracer::Flight {
     vec3 medium{0};  // absorption, 1/m
     uint light = 0, path = path_direct;
     int depth = 0;
-    bool is_branch = false;  // splits no more: panes one behind the other would multiply it
 };
 
 /// What it meets. Of a matte surface only position, normals and base colour are known.
@@ -81,28 +79,14 @@ void PhotonTracer::trace_path(Chunk& chunk, uint64_t index, float share) const {
     follow(chunk, flight, rng);
 }
 
-/// To the end of the path. Where the light of a lamp is not stored because it is computed exactly, the path goes on as
-/// several: they cost one ray from the lamp instead of one each.
+/// To the end of the path.
 void PhotonTracer::follow(Chunk& chunk, Flight flight, Rng& rng) const {
     for (; flight.depth < longest_path; ++flight.depth) {
         Bounce at;
         if (!meet(chunk, flight, at, rng)) return;
-        const bool stored = flight.path != path_direct || settings_.direct_in_photons;
-        if (at.shows_light && stored)
+        if (at.shows_light && (flight.path != path_direct || settings_.direct_in_photons))
             chunk.photons.push_back({at.surface.position, flight.flux, -flight.direction, at.triangle,
                                      pack_origin(flight.light, flight.path, at.back)});
-        if (!at.shows_light || stored || flight.is_branch) {
-            if (!leave(chunk, flight, at, rng)) return;
-            continue;
-        }
-        flight.flux /= float(branches);
-        flight.is_branch = true;
-        for (int i = 1; i < branches; ++i) {
-            Flight branch = flight;
-            if (!leave(chunk, branch, at, rng)) continue;
-            ++branch.depth;
-            follow(chunk, branch, rng);
-        }
         if (!leave(chunk, flight, at, rng)) return;
     }
     chunk.absorbed += balance_of(flight.flux);

@@ -162,7 +162,7 @@ TEST(Window, EndsWithOneLineWhenItsDisplayGoesAway) {
     const Outcome outcome = window.wait();
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), before + 1) << outcome.err;
-    EXPECT_EQ(window.folder().names(), (Words{"cube.gltf", "cube.pmap", "window"}));
+    EXPECT_EQ(window.folder().names(), (Words{"cube.gltf", "cube.pmap", "photometry", "window"}));
 }
 
 TEST(Window, GoesOnWhenItsDeviceIsLostAndGivesUpWhenItIsLostAgain) {

@@ -97,11 +97,13 @@ TEST_F(MapFile, IntoAMissingFolderIsRefusedAndLeavesNothing) {
 
 /// Damage with a right checksum: only the bounds are left to refuse what would lead the shaders out of their arrays.
 TEST_F(MapFile, SignedMapsThatLeadOutOfTheirArraysAreRefused) {
+    int cases = 0;
     const auto refused = [&](const auto& damage) {
         PhotonMap bad = map;
         damage(bad);
         save_photon_map(path, bad);
-        EXPECT_THROW(load_photon_map(path, scene), Error);
+        ++cases;
+        EXPECT_THROW(load_photon_map(path, scene), Error) << "case " << cases;
     };
     ASSERT_FALSE(map.visible_lamps.empty());
     refused([](PhotonMap& m) { m.coverage.pop_back(); });

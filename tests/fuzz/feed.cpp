@@ -20,7 +20,7 @@
 namespace lw::test {
 namespace {
 
-constexpr size_t map_header_bytes = 160, map_checksum_at = 16, map_scene_at = 24, map_sizes_at = 80;
+constexpr size_t map_header_bytes = 176, map_checksum_at = 16, map_scene_at = 24, map_sizes_at = 80;
 
 void require(bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);

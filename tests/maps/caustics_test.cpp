@@ -117,7 +117,7 @@ TEST(CausticMap, ShowsTheFocusOfAGlassBall) {
 /// The same map with all caustics left to the pixels.
 PhotonMap without_caustics_in_cells(const Baked& baked) {
     Photons others = baked.photons;
-    std::erase_if(others.records, [](const Photon& p) { return p.path() == path_caustic; });
+    std::erase_if(others.records, [](const Photon& p) { return is_caustic(p.path()); });
     BakeSettings settings = baked.map.settings;  // with the radius found, so that the lattices are the same
     const PhotonMap plain = build_photon_map(baked.scene, baked.caster, others, settings);
     PhotonMap map = baked.map;

@@ -135,8 +135,8 @@ TEST(Estimate, ExactModeEqualsBruteForce) {
     int compared = 0;
     for (size_t i = 0; i < baked.photons.records.size(); i += 997) {
         const Photon& p = baked.photons.records[i];
-        const uint map = baked.map.triangle_maps[2 * p.triangle + p.side()];
         const Surface s = estimator.surface_at(p.triangle, {0.31f, 0.27f});
+        const uint map = baked.map.map_at(baked.map.triangle_maps[2 * p.triangle + p.side()], s.position);
         const float side = p.side() ? -1.0f : 1.0f;
         const Gathered got = estimator.gather_photons(estimator.place_on(map, s.position), s, s.geometric_normal * side,
                                                       s.normal * side, s.normal * side);
@@ -306,7 +306,7 @@ TEST(Estimate, LightOfCellsHoldsSmallLampsAsTheyAre) {
     const Difference masks = compare_everywhere(by_masks, exact, scene), nodes = compare_everywhere(by_nodes, exact, scene);
     EXPECT_LT(std::abs(masks.bias), 0.003);
     EXPECT_LT(masks.rmse, 0.03);
-    EXPECT_LT(masks.rmse, 0.5 * nodes.rmse);
+    EXPECT_LT(masks.rmse, 0.6 * nodes.rmse);
 }
 
 TEST(Estimate, ReferencesPerPhotonStayBounded) {
