@@ -138,6 +138,7 @@ void check_grids(const std::filesystem::path& path, const PhotonMap& map, const 
         cells += here;
     }
     if (cells + 1 != map.cell_starts.size()) refuse(path, "cells and grids do not agree");
+    if (map.cell_starts.front() != 0) refuse(path, "its first cell does not start with the first reference");
     for (size_t c = 0; c + 1 < map.cell_starts.size(); ++c)
         if (map.cell_starts[c] > map.cell_starts[c + 1])
             refuse(path, "cell " + std::to_string(c) + " ends before it starts");

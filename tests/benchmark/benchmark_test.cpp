@@ -64,7 +64,7 @@ TEST(NeighbourSearch, FourStructuresFindTheSamePhotonsOnAFlatFloor) {
         const vec3 point(place.x, 0, place.y);
         const std::optional<Hit> floor = caster.nearest(point + vec3(0, 0.1f, 0), vec3(0, -1, 0));
         ASSERT_TRUE(floor);
-        const Query query{point, vec3(0, 1, 0), map.triangle_maps[2 * floor->triangle]};
+        const Query query{point, vec3(0, 1, 0), map.map_at(map.triangle_maps[2 * floor->triangle], point)};
         ASSERT_NE(query.map, no_map);
         const float radius = map.grids[query.map].radius;
         const std::vector<float> expected = distances(grid, query, 50, radius);
