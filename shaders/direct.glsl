@@ -203,14 +203,14 @@ uint lamp_bits(MapPlace at, uint word) LW_MEMBER {
 /// True for a lobe, neither mirror nor wide, whose reflection of mesh lamps is sampled at the lamps too.
 bool samples_lobe(Surface s) LW_MEMBER { return leaves_lobe_out(s) && s.roughness * s.roughness >= smallest_alpha; }
 
-/// One bit per lamp of a word of a cell, at its lowest: set for those a pixel has to add. Hidden ones are skipped, and in
+/// One bit per lamp of a word of a cell, at its lowest: set for those of a pair that a pixel has to add. Hidden ones are skipped, and in
 /// the cached mode those that the light of the cell holds, unless a lobe is to show them.
-uint lamps_to_add(uint bits, uint word, Surface s) LW_MEMBER {
+uint lamps_to_add(uint bits, uint pair, Surface s) LW_MEMBER {
     uint skipped = (bits >> 1) & ~bits;
     if (shows_points_behind(s)) skipped = 0u;
     if (gather_mode == gather_mode_cached && !samples_lobe(s)) skipped |= bits >> 2;
-    uint left = light_count - word * cell_lamps_per_word;
-    uint all = left < cell_lamps_per_word ? (1u << (8u * left)) - 1u : 0xffffffffu;
+    uint first = pair * lamps_per_pair;
+    uint all = (light_count - first < lamps_per_pair ? 0xffu : 0xffffu) << cell_lamp_shift(first);
     return 0x01010101u & ~skipped & all;
 }
 
@@ -227,13 +227,14 @@ Sight sight_in_word(MapPlace at, uint bits, uint shift, uint first_mask, Surface
     return sight_of((bits >> shift) & 255u, first_mask + bitCount(bits & 0x08080808u & ((1u << shift) - 1u)), at.f, s);
 }
 
-/// Adds the direct light of the lamps of one word at a place. `seed` shifts the points on mesh lamps (Cranley & Patterson
+/// Adds the direct light of one pair of lamps at a place. `seed` shifts the points on mesh lamps (Cranley & Patterson
 /// 1976) of the R2 sequence (Roberts 2018).
-void add_direct(MapPlace at, uint word, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+void add_direct(MapPlace at, uint pair, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
+    uint word = cell_lamp_word(pair * lamps_per_pair);
     uint bits = lamp_bits(at, word);
     uint first_mask = first_shadow_mask(at, word);
-    for (uint todo = lamps_to_add(bits, word, s); todo != 0u; todo &= todo - 1u) {
+    for (uint todo = lamps_to_add(bits, pair, s); todo != 0u; todo &= todo - 1u) {
         uint shift = uint(findLSB(todo));
         Sight sight = sight_in_word(at, bits, shift, first_mask, s);
         add_lamp(word * cell_lamps_per_word + shift / 8u, sight, s, n_geometric, n_shading, to_view, seed, sum);

@@ -326,8 +326,8 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
         following.depth = depth;
         Seen far = see_followed(at);
         Gathered shown = estimate_at(far);
-        for (uint word = 0u; has_direct && word < ray_words(light_count); ++word)
-            add_rays(far, word, seed_at_end(seed, following), shown);
+        for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
+            add_rays(far, pair, seed_at_end(seed, following), shown);
         light.radiance += at.weight * shown.radiance;
         if (depth == 0u && branch == branch_through && is_looked_through(seen)) light.irradiance += shown.irradiance;
         if ((at.flags & followed_goes_on) == 0u) return;
@@ -344,7 +344,7 @@ Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed, uvec2 pixe
     Seen seen = marked(see(triangle, barycentrics, eye));
     Gathered light = estimate_at(seen);
     light.radiance += own_radiance(seen.surface, seen.front);
-    for (uint word = 0u; has_direct && word < ray_words(light_count); ++word) add_rays(seen, word, seed, light);
+    for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair) add_rays(seen, pair, seed, light);
     light.radiance *= shown_part(seen);
     if (is_looked_through(seen)) light.irradiance = vec3(0.0f);
     for (uint branch = 0u; has_followed && branch < branch_count; ++branch)

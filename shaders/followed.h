@@ -15,7 +15,7 @@ LW_CONST float strong_lobe = 0.25f;
 LW_CONST uint branch_reflected = 0u;
 LW_CONST uint branch_through = 1u;
 LW_CONST uint branch_count = 2u;
-LW_INLINE uint pixel_lists(uint lamps, bool follows) { return ray_words(lamps) + (follows ? branch_count : 0u); }
+LW_INLINE uint pixel_lists(uint lamps, bool follows) { return ray_pairs(lamps) + (follows ? branch_count : 0u); }
 
 /// Where the view path of a pixel ended, for photons and rays to be gathered there.
 struct Followed {

@@ -89,8 +89,8 @@ LW_CONST uint stage_rays = 1u;
 LW_CONST uint stage_follow = 2u;
 LW_CONST uint gather_group_side = 8u;  // pixels
 
-/// The arguments of the dispatch for rays to the lamps of a word; its pixels are listed from word * pixels of the picture on.
-/// A dispatch for each word: Mesa's software rasterizer ends all loops of an invocation after 65,535 rounds in sum, without
+/// The arguments of the dispatch for rays to a pair of lamps; its pixels are listed from pair * pixels of the picture on.
+/// A dispatch for each pair: Mesa's software rasterizer ends all loops of an invocation after 65,535 rounds in sum, without
 /// a word, and rays to many lamps get there.
 struct RayPixels {
     uint groups_x;
@@ -130,7 +130,7 @@ struct Frame {
     float scene_size;     // m, beyond which nothing stands
     uint shadow_rays;     // per emissive mesh
     float inverse_irradiance_scale;
-    uint ray_word;  // whose lamps rays are traced to
+    uint ray_pair;  // of lamps that rays are traced to
     uint following;  // pack_following()
 };
 

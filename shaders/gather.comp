@@ -140,7 +140,7 @@ void list_pixel(uint pixel, uint list) {
 
 /// The list whose pixels this dispatch is for.
 uint list_of_dispatch() {
-    return stage == stage_rays ? frame.ray_word : ray_words(light_count) + unpack_following(frame.following).branch;
+    return stage == stage_rays ? frame.ray_pair : ray_pairs(light_count) + unpack_following(frame.following).branch;
 }
 
 /// The pixel of this invocation, or one beyond the picture.
@@ -207,11 +207,11 @@ void gather_followed(uint pixel) {
     Following following = unpack_following(frame.following);
     uint seed = seed_at_end(hash_uint(pixel + hash_uint(frame.sample_index)), following);
     if (stage == stage_rays) {
-        add_rays(seen, frame.ray_word, seed, light);
+        add_rays(seen, frame.ray_pair, seed, light);
     } else {
         light = estimate_at(seen);
-        for (uint word = 0u; has_direct && word < ray_words(light_count); ++word)
-            if (needs_rays(seen, word)) list_pixel(pixel, word);
+        for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
+            if (needs_rays(seen, pair)) list_pixel(pixel, pair);
     }
     float lux = (at.flags & followed_is_looked_at) != 0u ? luminance(light.irradiance) : 0.0f;
     radiance_illuminance[pixel] += vec4(at.weight * light.radiance, lux) * (frame.sample_weight / float(following.paths));
@@ -222,14 +222,14 @@ Gathered gather_seen(uint pixel, Seen seen) {
     Gathered light = no_light();
     uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
     if (stage == stage_rays) {
-        add_rays(seen, frame.ray_word, seed, light);
+        add_rays(seen, frame.ray_pair, seed, light);
     } else {
         light = estimate_at(seen);
         light.radiance += own_radiance(seen.surface, seen.front);
-        for (uint word = 0u; has_direct && word < ray_words(light_count); ++word)
-            if (needs_rays(seen, word)) list_pixel(pixel, word);
+        for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
+            if (needs_rays(seen, pair)) list_pixel(pixel, pair);
         for (uint branch = 0u; has_followed && branch < branch_count; ++branch)
-            if (goes_on(seen, branch)) list_pixel(pixel, ray_words(light_count) + branch);
+            if (goes_on(seen, branch)) list_pixel(pixel, ray_pairs(light_count) + branch);
     }
     light.radiance *= shown_part(seen);
     if (is_looked_through(seen)) light.irradiance = vec3(0.0f);

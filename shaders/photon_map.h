@@ -78,8 +78,9 @@ LW_CONST uint has_shadow_mask = 8u;
 /// order of corner_sees, whose light holds the caustics; above them the first of its shadow masks, in the order of lamps.
 LW_INLINE uint cell_words(uint lamps, bool has_marks) { return cell_lamp_words(lamps) + (has_marks ? 1u : 0u); }
 LW_CONST uint first_mask_shift = 4u;
-/// Words that rays are traced for.
-LW_INLINE uint ray_words(uint lamps) { return max(cell_lamp_words(lamps), 1u); }
+/// Rays are traced to two lamps at a time, the first or the last half of a word.
+LW_CONST uint lamps_per_pair = 2u;
+LW_INLINE uint ray_pairs(uint lamps) { return max((lamps + lamps_per_pair - 1u) / lamps_per_pair, 1u); }
 LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
 LW_INLINE uint cell_lamp_shift(uint lamp) { return 8u * (lamp % cell_lamps_per_word); }
 

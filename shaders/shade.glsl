@@ -42,12 +42,12 @@ Gathered estimate_at(Seen seen) LW_MEMBER {
     return light;
 }
 
-/// True when lamps of a word have to be added to what the photons say.
-bool needs_rays(Seen seen, uint word) LW_MEMBER {
-    return has_direct && lamps_to_add(lamp_bits(seen.at, word), word, seen.surface) != 0u;
+/// True when lamps of a pair have to be added to what the photons say.
+bool needs_rays(Seen seen, uint pair) LW_MEMBER {
+    return has_direct && lamps_to_add(lamp_bits(seen.at, cell_lamp_word(pair * lamps_per_pair)), pair, seen.surface) != 0u;
 }
 
-/// Adds the lamps of one word.
-void add_rays(Seen seen, uint word, uint seed, LW_INOUT(Gathered) light) LW_MEMBER {
-    add_direct(seen.at, word, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, seed, light);
+/// Adds the lamps of one pair.
+void add_rays(Seen seen, uint pair, uint seed, LW_INOUT(Gathered) light) LW_MEMBER {
+    add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, seed, light);
 }

@@ -46,7 +46,7 @@ Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& s
 }
 
 GatherPass::GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings)
-    : resident_(&resident), picture_(&picture), ray_words_(ray_words(uint(resident.scene().lights.size()))) {
+    : resident_(&resident), picture_(&picture), ray_pairs_(ray_pairs(uint(resident.scene().lights.size()))) {
     if (settings.mode == 0 && settings.neighbours > PhotonEstimator::heap_size)
         throw Error("gather: exact search takes at most " + std::to_string(PhotonEstimator::heap_size) + " neighbours");
     const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), picture.descriptors().layout()};
@@ -72,7 +72,7 @@ void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Pi
     const vk::DescriptorSet sets[] = {resident_->descriptors(lamps).handle(), picture.descriptors().handle()};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
     commands.pushConstants<Frame>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, frame);
-    if (rays_ || follow_) empty_lists(commands, picture, ray_words_ + (follow_ ? branch_count : 0));
+    if (rays_ || follow_) empty_lists(commands, picture, ray_pairs_ + (follow_ ? branch_count : 0));
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *photons_);
     const auto groups = [](uint pixels) { return (pixels + gather_group_side - 1) / gather_group_side; };
     commands.dispatch(groups(frame.width), groups(frame.height), 1);
@@ -92,16 +92,16 @@ void GatherPass::empty_lists(vk::CommandBuffer commands, const Picture& picture,
 
 void GatherPass::record_rays(vk::CommandBuffer commands, const Picture& picture, vk::Pipeline rays) const {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, rays);
-    for (uint word = 0; word < ray_words_; ++word) {
-        commands.pushConstants(*layout_, vk::ShaderStageFlagBits::eCompute, offsetof(Frame, ray_word), sizeof word,
-                               &word);
-        dispatch_list(commands, picture, word);
+    for (uint pair = 0; pair < ray_pairs_; ++pair) {
+        commands.pushConstants(*layout_, vk::ShaderStageFlagBits::eCompute, offsetof(Frame, ray_pair), sizeof pair,
+                               &pair);
+        dispatch_list(commands, picture, pair);
     }
 }
 
 void GatherPass::record_path(vk::CommandBuffer commands, const Picture& picture, const Following& following) const {
-    const uint packed = pack_following(following), list = ray_words_ + following.branch;
-    empty_lists(commands, picture, ray_words_);
+    const uint packed = pack_following(following), list = ray_pairs_ + following.branch;
+    empty_lists(commands, picture, ray_pairs_);
     commands.pushConstants(*layout_, vk::ShaderStageFlagBits::eCompute, offsetof(Frame, following), sizeof packed,
                            &packed);
     for (const vk::Pipeline pipeline : {*follow_, *followed_photons_}) {

@@ -26,7 +26,7 @@ class GatherPass {
 
     const Resident* resident_;
     const Picture* picture_;
-    uint ray_words_;
+    uint ray_pairs_;
     vk::UniquePipelineLayout layout_;
     vk::UniquePipeline photons_, rays_;                             // the latter where the scene has lamps
     vk::UniquePipeline follow_, followed_photons_, followed_rays_;  // where view paths go on
