@@ -203,14 +203,15 @@ uint lamp_bits(MapPlace at, uint word) LW_MEMBER {
 /// True for a lobe, neither mirror nor wide, whose reflection of mesh lamps is sampled at the lamps too.
 bool samples_lobe(Surface s) LW_MEMBER { return leaves_lobe_out(s) && s.roughness * s.roughness >= smallest_alpha; }
 
-/// One bit per lamp of a word of a cell, at its lowest: set for those of a pair that a pixel has to add. Hidden ones are skipped, and in
-/// the cached mode those that the light of the cell holds, unless a lobe is to show them.
+/// One bit per lamp of a word of a cell, at its lowest: set for those of a pair that a pixel has to add. Hidden ones are
+/// skipped, and in the cached mode those that the light of the cell holds, unless a lobe is to show them.
 uint lamps_to_add(uint bits, uint pair, Surface s) LW_MEMBER {
     uint skipped = (bits >> 1) & ~bits;
     if (shows_points_behind(s)) skipped = 0u;
     if (gather_mode == gather_mode_cached && !samples_lobe(s)) skipped |= bits >> 2;
     uint first = pair * lamps_per_pair;
-    uint all = (light_count - first < lamps_per_pair ? 0xffu : 0xffffu) << cell_lamp_shift(first);
+    uint lamps = min(light_count - min(first, light_count), lamps_per_pair);
+    uint all = ((1u << (8u * lamps)) - 1u) << cell_lamp_shift(first);
     return 0x01010101u & ~skipped & all;
 }
 
