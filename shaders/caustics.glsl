@@ -8,7 +8,7 @@
 float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
     ivec2 cell = cell_of(local, grid);
     ivec2 last = ivec2(int(grid.columns) - 1, int(grid.rows) - 1);
-    int ring = max(max(max(-cell.x, cell.x - last.x), max(-cell.y, cell.y - last.y)), 0);
+    int ring = first_ring(grid, cell);
     int last_ring = int(grid.radius / grid.cell_size) + 1;
     if (ring > last_ring) return grid.radius;
     float count = 0.0f;

@@ -62,6 +62,13 @@ bool covers_grid(SurfaceGrid grid, ivec2 cell, int ring) LW_MEMBER {
            cell.y + ring >= int(grid.rows) - 1;
 }
 
+/// The first ring of cells around `cell` that meets the grid. Few photons make small grids of small cells: rings that are
+/// empty for certain cost nothing.
+int first_ring(SurfaceGrid grid, ivec2 cell) LW_MEMBER {
+    ivec2 beyond = max(-cell, cell - ivec2(int(grid.columns) - 1, int(grid.rows) - 1));
+    return max(max(beyond.x, beyond.y), 0);
+}
+
 /// Exact k nearest photons with a bounded max-heap, nearest cells first; sum over the k-1 nearer ones / (pi r_k^2),
 /// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside the map's radius: all of them over its disc.
 Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
@@ -71,7 +78,7 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
     uint count = 0u;
     float bound = grid.radius * grid.radius;
     ivec2 cell = cell_of(local, grid);
-    for (int ring = 0;; ++ring) {
+    for (int ring = first_ring(grid, cell);; ++ring) {
         for (int y = cell.y - ring; y <= cell.y + ring; ++y) {
             bool whole_row = y == cell.y - ring || y == cell.y + ring;
             int step = whole_row ? 1 : 2 * ring;
