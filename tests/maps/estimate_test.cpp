@@ -138,6 +138,7 @@ TEST(Estimate, ExactModeEqualsBruteForce) {
         const Surface s = estimator.surface_at(p.triangle, {0.31f, 0.27f});
         const uint map = baked.map.map_at(baked.map.triangle_maps[2 * p.triangle + p.side()], s.position);
         const float side = p.side() ? -1.0f : 1.0f;
+        if (map == no_map) continue;  // a piece that no photon reaches
         const Gathered got = estimator.gather_photons(estimator.place_on(map, s.position), s, s.geometric_normal * side,
                                                       s.normal * side, s.normal * side);
         const Gathered expected = brute_force(baked, map, s.position, 50);
