@@ -24,8 +24,6 @@ namespace {
 constexpr float patch_size_in_radii = 6;  // size of a patch in search radii (study: 4 to 8)
 constexpr float nodes_apart = 0.5f;           // search radii between the nodes of a lattice
 constexpr double most_references = 2.3;       // per photon, what small patches are tightened to; 2.5 is promised
-constexpr double fewest_references = 1.25;    // per photon: what lies around a patch is part of its estimate
-constexpr double most_bytes = 41;  // per photon, less what patches without photons of their own add; 48 is promised
 
 /// The grid in the frame of its patch; origin and sizes follow from its photons.
 SurfaceGrid frame_of(const PatchShape& shape, float radius) {
@@ -110,28 +108,6 @@ bool needs_directions(const Scene& scene) {
 
 namespace {
 
-/// References per photon that leave all arrays within most_bytes per photon, lattices and tables of the patches with
-/// photons included; within bounds of their own.
-double affordable_references(const Scene& scene, const Photons& photons, const Patches& patches,
-                             const std::vector<PatchShape>& shapes, const BakeSettings& settings) {
-    std::vector<char> is_lit(patches.count, 0);
-    bool caustics = false;
-    for (const Photon& p : photons.records) {
-        is_lit[patches.at(2 * size_t(p.triangle) + p.side(), p.position)] = 1;
-        caustics |= is_caustic(p.path());
-    }
-    const auto lamps = uint(scene.lights.size());
-    const double of_node =
-        4.0 * (1 + lamps + (settings.direct_in_photons ? 0 : visibility_words(lamps)));
-    double bytes = (caustics ? 16.0 : 8.0) * double(scene.triangles.size());
-    for (uint p = 0; p < patches.count; ++p)
-        if (is_lit[p])
-            bytes += sizeof(SurfaceGrid) + of_node * double(count_nodes(shapes[p], nodes_apart * settings.radius));
-    const double of_reference = (needs_directions(scene) ? 16 : 12) + 4 / references_per_cell;
-    const auto count = double(std::max<size_t>(photons.records.size(), 1));
-    return std::clamp((most_bytes - bytes / count) / of_reference, fewest_references, most_references);
-}
-
 /// The patches for one largest radius, and a radius for each: small patches get a smaller one until references per
 /// photon stay below the bound.
 struct Partition {
@@ -143,14 +119,13 @@ struct Partition {
           shapes(cut_shapes(scene, settings.radius, patches)),
           neighbours(shapes, patch_radii(shapes, settings.radius, largest_floor * settings.radius),
                      settings.neighbour_angle_deg, settings.radius) {
-        const double affordable = affordable_references(scene, photons, patches, shapes, settings);
         float floor = largest_floor * settings.radius;
         float overhang = widest_overhang;
         for (int tries = 0; tries < 24; ++tries, floor *= 0.75f) {
             radii = patch_radii(shapes, settings.radius, floor, overhang);
             if (sample_references(
                     {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours, caster},
-                    20000) < affordable)
+                    20000) < most_references)
                 break;
             if (floor < smallest_floor * settings.radius) overhang *= 0.8f;
         }

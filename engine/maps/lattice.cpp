@@ -107,10 +107,6 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
 
 }  // namespace
 
-uint64_t count_nodes(const PatchShape& shape, float spacing) {
-    return uint64_t(nodes_along(shape.high.x - shape.low.x, spacing)) * nodes_along(shape.high.y - shape.low.y, spacing);
-}
-
 std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchShape>& shapes, float spacing,
                                     PhotonMap& map) {
     uint64_t count = 0;

@@ -18,9 +18,6 @@ struct NodePoint {
     bool exists() const { return triangle != no_map; }
 };
 
-/// How many nodes the lattice of a patch has.
-uint64_t count_nodes(const PatchShape& shape, float spacing);
-
 /// Lays the lattice of every map, at most `spacing` metres between nodes; shapes[m] is the shape of map m; cuts have
 /// none. Returns the points of all nodes; a node farther than a cell from the surface has none: no look-up ever weighs
 /// it.

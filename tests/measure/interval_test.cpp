@@ -78,7 +78,8 @@ void expect_honest(const Coverage& c) {
     EXPECT_LT(std::abs(c.bias), 0.01);
     EXPECT_GE(c.pins, 90u);
     EXPECT_GE(double(c.pins_covered), 0.85 * double(c.pins)) << c.pins_covered << " of " << c.pins;
-    EXPECT_LE(double(c.pins_covered), 0.95 * double(c.pins)) << c.pins_covered << " of " << c.pins;
+    // Of 100 pins whose intervals hold 95 % of the time more than 98 do so one time in twenty.
+    EXPECT_LE(double(c.pins_covered), 0.98 * double(c.pins)) << c.pins_covered << " of " << c.pins;
     std::printf("pins: %zu of %zu; ", c.pins_covered, c.pins);
     std::printf("covered %zu of %zu trusted of %zu lit, bias %+.2f %%\n", c.covered, c.trusted, c.lit, 100 * c.bias);
 }
