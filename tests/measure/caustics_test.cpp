@@ -16,7 +16,7 @@ namespace {
 TEST(Caustics, SensorsUnderAndAroundTheGlassBallAgreeWithThePathTracer) {
     const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/glass_sphere.gltf");
     const RayCaster caster(scene);
-    constexpr uint64_t photons = 300'000;
+    constexpr uint64_t photons = 600'000;
     const PhotonMap map =
         build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1});
     ASSERT_GT(map.caustic_grids, 0u);
