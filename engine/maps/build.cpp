@@ -111,8 +111,7 @@ namespace {
 /// The patches for one largest radius, and a radius for each: small patches get a smaller one until references per
 /// photon stay below the bound.
 struct Partition {
-    static constexpr float largest_floor = 0.5f;   // of the radius
-    static constexpr float smallest_floor = 0.1f;  // below it the overhang is tightened too
+    static constexpr float largest_floor = 0.5f;  // of the radius
 
     Partition(const Scene& scene, const RayCaster& caster, const Photons& photons, const BakeSettings& settings)
         : patches(group_triangles(scene, patch_size_in_radii * settings.radius)),
@@ -120,14 +119,12 @@ struct Partition {
           neighbours(shapes, patch_radii(shapes, settings.radius, largest_floor * settings.radius),
                      settings.neighbour_angle_deg, settings.radius) {
         float floor = largest_floor * settings.radius;
-        float overhang = widest_overhang;
-        for (int tries = 0; tries < 24; ++tries, floor *= 0.75f) {
-            radii = patch_radii(shapes, settings.radius, floor, overhang);
+        for (int tries = 0; tries < 16; ++tries, floor *= 0.75f) {
+            radii = patch_radii(shapes, settings.radius, floor);
             if (sample_references(
                     {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours, caster},
                     20000) < most_references)
                 break;
-            if (floor < smallest_floor * settings.radius) overhang *= 0.8f;
         }
     }
     static std::vector<PatchShape> cut_shapes(const Scene& scene, float radius, Patches& patches) {
