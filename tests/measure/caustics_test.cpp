@@ -30,7 +30,9 @@ TEST(Caustics, SensorsUnderAndAroundTheGlassBallAgreeWithThePathTracer) {
             in_air.push_back({at + vec3(0, 1.6f, 0), {0, -1, 0}, Response::planar});
         }
     // Where the caustics lie: at every so many of the arrivals of their light on the floor.
-    const std::vector<vec3> weights = light_weights(scene, {});
+    std::vector<vec3> weights = light_weights(scene, {});
+    for (size_t i = 0; i < weights.size(); ++i)
+        if (scene.lights[i].type == light_mesh) weights[i] = vec3(0);  // theirs are faint and wide
     const Caustics caustics(scene, caster, weights, {20'000, 0.01f, 1, 0});
     std::vector<vec3> lit;
     for (const Caustics::Arrival& arrival : caustics.arrivals())
@@ -48,10 +50,9 @@ TEST(Caustics, SensorsUnderAndAroundTheGlassBallAgreeWithThePathTracer) {
         const Agreement a = agreement_of(measured, survey.ambiances[0], 1);
         std::printf("%s: %zu of %zu, %+.2f %%\n", measured.set.name.c_str(), a.inside, a.compared, 100 * a.difference);
         // Two standard deviations under 90 % of some thirty sensors. In the focus, light of a few millimetres, most
-        // values say themselves that they are wide; more so since the sensors lie where light of all lamps arrives, the
-        // faint caustics of the panels among it.
+        // values say themselves that they are wide.
         const bool wide = measured.set.name == "focus";
-        EXPECT_GE(a.compared, measured.set.sensors.size() / (wide ? 6 : 2)) << measured.set.name;
+        EXPECT_GE(a.compared, measured.set.sensors.size() / (wide ? 4 : 2)) << measured.set.name;
         EXPECT_GE(double(a.inside), 0.79 * double(a.compared)) << measured.set.name;
         EXPECT_LT(std::abs(a.difference), wide ? 0.1 : 0.02) << measured.set.name;
     }
