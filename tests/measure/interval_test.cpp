@@ -40,12 +40,12 @@ struct Coverage {
 };
 
 /// Sensors under 1 lx are left out, and those the meter itself does not trust.
-Coverage coverage_of(const std::string& file, const std::string& name, uint64_t photons) {
+Coverage coverage_of(const std::string& file, const std::string& name, uint64_t photons, uint64_t seed) {
     const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/" + file);
     const RayCaster caster(scene);
     const Truth truth = read_truth(name);
     const PhotonMap map =
-        build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1});
+        build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, seed}), {photons, 0, 60, seed});
     const std::vector<vec3> full(scene.lights.size(), vec3(1));
     Survey survey = make_survey(scene, caster, map, {{SensorSet::Kind::points, "points", "", truth.sensors, {}, {}}},
                                 {{"all", full}}, {});
@@ -70,6 +70,18 @@ Coverage coverage_of(const std::string& file, const std::string& name, uint64_t 
     return result;
 }
 
+/// The same of several bakes of one scene: one has too few pins to tell 95 % from more.
+Coverage coverage_of_bakes(const std::string& file, const std::string& name, uint64_t photons, uint64_t bakes) {
+    Coverage all;
+    for (uint64_t seed = 1; seed <= bakes; ++seed) {
+        const Coverage c = coverage_of(file, name, photons, seed);
+        all.covered += c.covered, all.trusted += c.trusted, all.lit += c.lit;
+        all.pins += c.pins, all.pins_covered += c.pins_covered;
+        all.bias += c.bias / double(bakes);
+    }
+    return all;
+}
+
 void expect_honest(const Coverage& c) {
     EXPECT_GE(c.lit, 190u);
     EXPECT_GE(c.trusted, c.lit * 9 / 10);
@@ -78,15 +90,14 @@ void expect_honest(const Coverage& c) {
     EXPECT_LT(std::abs(c.bias), 0.01);
     EXPECT_GE(c.pins, 90u);
     EXPECT_GE(double(c.pins_covered), 0.85 * double(c.pins)) << c.pins_covered << " of " << c.pins;
-    // Of 100 pins whose intervals hold 95 % of the time more than 98 do so one time in twenty.
-    EXPECT_LE(double(c.pins_covered), 0.98 * double(c.pins)) << c.pins_covered << " of " << c.pins;
+    EXPECT_LE(double(c.pins_covered), 0.95 * double(c.pins)) << c.pins_covered << " of " << c.pins;
     std::printf("pins: %zu of %zu; ", c.pins_covered, c.pins);
     std::printf("covered %zu of %zu trusted of %zu lit, bias %+.2f %%\n", c.covered, c.trusted, c.lit, 100 * c.bias);
 }
 
-TEST(Interval, CoversTheTruthInTheFurnishedRoom) { expect_honest(coverage_of("apartment.glb", "apartment", 200'000)); }
+TEST(Interval, CoversTheTruthInTheFurnishedRoom) { expect_honest(coverage_of("apartment.glb", "apartment", 200'000, 1)); }
 
-TEST(Interval, CoversTheTruthInTheCornellBox) { expect_honest(coverage_of("cornell.gltf", "cornell", 200'000)); }
+TEST(Interval, CoversTheTruthInTheCornellBox) { expect_honest(coverage_of_bakes("cornell.gltf", "cornell", 200'000, 6)); }
 
 }  // namespace
 }  // namespace lw
