@@ -146,12 +146,12 @@ void toggle_recording(Session& s) {
     if (!s.recording) {
         s.recording = Path{30, double(s.yfov) * 180 / double(lw_pi), {}};
         s.recorded_seconds = 0;
+        record(s, 0);
         tell(s, "recording the walk; R ends it");
         return;
     }
     const Path path = *s.recording;
     s.recording.reset();
-    if (path.keys.empty()) return tell(s, "nothing recorded: walk between the two presses of R");
     try {
         const std::filesystem::path file = free_name(s, "path.json");
         save_path(file, path);

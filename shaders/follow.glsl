@@ -155,12 +155,17 @@ ViewRay no_ray() LW_MEMBER {
     return ray;
 }
 
+/// How likely a path goes through glass: by Fresnel's factor, but of a rough surface some facets pass what others reflect totally.
+float chance_through(Seen seen) LW_MEMBER {
+    float part = largest(transmitted_part(seen.surface, max(dot(seen.n_shading, seen.to_eye), 1e-4f), is_inside(seen)));
+    return transmits_smoothly(seen.surface) ? part : max(part, 0.1f * seen.surface.transmission * (1.0f - seen.surface.metallic));
+}
+
 /// What the eye sees through a surface: straight on past a blend, or through glass, by chance where it is both.
 ViewRay ray_behind(Seen seen, PathNumbers numbers) LW_MEMBER {
     Surface s = seen.surface;
     float there = opacity_at(seen.triangle, s);
-    float glass = is_glass(s) ? there * largest(transmitted_part(s, max(dot(seen.n_shading, seen.to_eye), 1e-4f), is_inside(seen)))
-                              : 0.0f;
+    float glass = is_glass(s) ? there * chance_through(seen) : 0.0f;
     float sum = 1.0f - there + glass;
     bool past = choice_number(numbers, 0u) * sum < 1.0f - there;
     ViewRay ray = no_ray();
@@ -228,7 +233,7 @@ PathEnd end_nowhere() LW_MEMBER {
 
 /// How likely a path goes on from a surface by each way, in sum 1, or all 0.
 struct Ways {
-    float diffuse;  // not at all: light is gathered here
+    float here;  // not at all: the light of the diffuse lobe is gathered, and of small lamps, which no ray meets, by rough ones
     float reflected;
     float through;
 };
@@ -238,11 +243,13 @@ Ways ways_on(Seen seen) LW_MEMBER {
     float nv = max(dot(seen.n_shading, seen.to_eye), 1e-4f);
     vec3 fresnel = dielectric_fresnel(s, nv, is_inside(seen));
     Ways ways;
-    ways.diffuse = largest(s.base_color) * max(passed_by_fresnel(fresnel), 0.0f) * (1.0f - s.transmission) * (1.0f - s.metallic);
+    ways.here = largest(s.base_color) * max(passed_by_fresnel(fresnel), 0.0f) * (1.0f - s.transmission) * (1.0f - s.metallic);
     ways.reflected = largest(specular_reflectance(s, nv, is_inside(seen)));
-    ways.through = has_transmission ? largest(transmitted_part(s, nv, is_inside(seen))) : 0.0f;
-    float sum = max(ways.diffuse + ways.reflected + ways.through, 1e-20f);
-    ways.diffuse /= sum;
+    ways.through = has_transmission ? chance_through(seen) : 0.0f;
+    if (has_direct && s.roughness * s.roughness >= smallest_alpha)
+        ways.here = max(ways.here, least_part_here * (ways.reflected + ways.through));
+    float sum = max(ways.here + ways.reflected + ways.through, 1e-20f);
+    ways.here /= sum;
     ways.reflected /= sum;
     ways.through /= sum;
     return ways;
@@ -275,11 +282,11 @@ PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
         Ways ways = ways_on(seen);
         bool smooth_lobe = s.roughness * s.roughness < smallest_alpha;
         bool passes = is_glass(s) || (smooth_lobe && s.metallic > 0.5f);
-        if (!passes || (choice >= ways.through + ways.reflected && ways.diffuse > 1e-4f)) {
+        if (!passes || (choice >= ways.through + ways.reflected && ways.here > 1e-4f)) {
             end.at.triangle = triangle;
             end.at.barycentrics = barycentrics;
             end.at.eye = ray.origin;
-            end.at.weight = passes ? ray.weight / ways.diffuse : ray.weight;
+            end.at.weight = passes ? ray.weight / ways.here : ray.weight;
             bool on = !passes && !last && !smooth_lobe && reflects_narrowly(s) && ways.reflected > strong_lobe;
             end.at.flags = (passes ? followed_leaves_lobe : 0u) | (on ? followed_goes_on | followed_leaves_lobe : 0u);
             return end;
@@ -291,7 +298,7 @@ PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
         } else {
             ray = reflected_ray(seen, ray.medium, lobe_numbers(numbers, met));
             ray.weight *= weight / ways.reflected;
-            ray.pdf = 0.0f;
+            if (!has_direct) ray.pdf = 0.0f;  // no light samples beside it
         }
     }
     return end;

@@ -84,27 +84,35 @@ void PhotonTracer::follow(Chunk& chunk, Flight flight, Rng& rng) const {
     for (; flight.depth < longest_path; ++flight.depth) {
         Bounce at;
         if (!meet(chunk, flight, at, rng)) return;
-        if (at.shows_light && (flight.path != path_direct || settings_.direct_in_photons))
-            chunk.photons.push_back({at.surface.position, flight.flux, -flight.direction, at.triangle,
-                                     pack_origin(flight.light, flight.path, at.back)});
+        keep(chunk, flight, at);
         if (!leave(chunk, flight, at, rng)) return;
     }
     chunk.absorbed += balance_of(flight.flux);
 }
 
-/// The next surface; false when there is none. The medium on the way takes its part.
+/// Leaves a photon where surfaces show light.
+void PhotonTracer::keep(Chunk& chunk, const Flight& flight, const Bounce& at) const {
+    if (!at.shows_light) return;
+    ++chunk.shown;
+    if (flight.path == path_direct && !settings_.direct_in_photons) return;
+    chunk.photons.push_back({at.surface.position, flight.flux, -flight.direction, at.triangle,
+                             pack_origin(flight.light, flight.path, at.back)});
+}
+
+/// The next surface; false when there is none. The medium on the way takes its part; blends that are passed are lit.
 bool PhotonTracer::meet(Chunk& chunk, Flight& flight, Bounce& at, Rng& rng) const {
-    const std::optional<Hit> hit = caster_.nearest(flight.origin, flight.direction, rng);
+    std::vector<Hit> passed;
+    const std::optional<Hit> hit = caster_.nearest(flight.origin, flight.direction, rng, &passed);
+    for (const Hit& blend : passed) {
+        Flight there = flight;
+        there.flux = flight.flux * surfaces_.passed_by_medium(flight.medium, blend.distance);
+        keep(chunk, there, bounce_at(blend, flight.direction));
+    }
     if (!hit) {
         chunk.escaped += balance_of(flight.flux);
         return false;
     }
-    at.triangle = hit->triangle;
-    at.matte = is_matte_[scene_.objects[scene_.triangle_objects[hit->triangle]].material];
-    if (at.matte)
-        read_matte(*hit, at.surface);
-    else
-        at.surface = surfaces_.surface_at(hit->triangle, hit->barycentrics);
+    at = bounce_at(*hit, flight.direction);
     const vec3 absorption =
         at.matte ? flight.medium : absorption_before(surfaces_, at.surface, flight.direction, flight.medium);
     if (absorption != vec3(0)) {
@@ -112,10 +120,20 @@ bool PhotonTracer::meet(Chunk& chunk, Flight& flight, Bounce& at, Rng& rng) cons
         chunk.absorbed += balance_of(flight.flux) - balance_of(arriving);
         flight.flux = arriving;
     }
-    at.back = dot(at.surface.geometric_normal, flight.direction) > 0;
-    at.shows_light = at.matte || !surfaces_.is_purely_specular(at.surface);
-    chunk.shown += at.shows_light;
     return true;
+}
+
+PhotonTracer::Bounce PhotonTracer::bounce_at(const Hit& hit, vec3 direction) const {
+    Bounce at;
+    at.triangle = hit.triangle;
+    at.matte = is_matte_[scene_.objects[scene_.triangle_objects[hit.triangle]].material];
+    if (at.matte)
+        read_matte(hit, at.surface);
+    else
+        at.surface = surfaces_.surface_at(hit.triangle, hit.barycentrics);
+    at.back = dot(at.surface.geometric_normal, direction) > 0;
+    at.shows_light = at.matte || !surfaces_.is_purely_specular(at.surface);
+    return at;
 }
 
 /// surface_at() for what a matte bounce needs.

@@ -43,6 +43,8 @@ class PhotonTracer {
     void trace_path(Chunk& chunk, uint64_t index, float share) const;
     void follow(Chunk& chunk, Flight flight, Rng& rng) const;
     bool meet(Chunk& chunk, Flight& flight, Bounce& at, Rng& rng) const;
+    void keep(Chunk& chunk, const Flight& flight, const Bounce& at) const;
+    Bounce bounce_at(const Hit& hit, vec3 direction) const;
     bool leave(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const;
     bool leave_matte(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const;
     static bool survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival, Rng& rng);

@@ -29,24 +29,36 @@ class CausticPath {
         vec3 flux = emission.flux * weight, origin = caster_.offset(emission.origin, emission.normal),
              direction = emission.direction, medium(0);
         bool direct = true;
+        std::vector<Hit> passed;  // blends, which are lit all the same
         for (int bounce = 0; bounce < most_bounces; ++bounce) {
-            const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
+            passed.clear();
+            const std::optional<Hit> hit = caster_.nearest(origin, direction, rng, &passed);
+            if (!direct)
+                for (const Hit& blend : passed) {
+                    const Surface s = surfaces_.surface_at(blend.triangle, blend.barycentrics);
+                    arrive(s, flux * surfaces_.passed_by_medium(medium, blend.distance), direction, arrivals);
+                }
             if (!hit) return;
             const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
             flux *= surfaces_.passed_by_medium(absorption_before(surfaces_, s, direction, medium), hit->distance);
-            const vec3 ng = s.geometric_normal * (dot(s.geometric_normal, direction) > 0 ? -1.0f : 1.0f);
-            if (!direct && !surfaces_.is_purely_specular(s)) arrivals.push_back({s.position, flux, -direction, ng});
+            if (!direct) arrive(s, flux, direction, arrivals);
             const std::optional<Scatter> next = sample_bsdf(surfaces_, s, -direction, Carries::flux, rng);
             if (!next || !next->specular) return;
             flux *= next->weight;
             direct = direct && next->straight;
             direction = next->direction;
             medium = absorption_after(surfaces_, s, direction, medium);
+            const vec3 ng = s.geometric_normal;
             origin = caster_.offset(s.position, dot(direction, ng) > 0 ? ng : -ng);
         }
     }
 
   private:
+    void arrive(const Surface& s, vec3 flux, vec3 direction, std::vector<Caustics::Arrival>& arrivals) const {
+        const vec3 ng = s.geometric_normal * (dot(s.geometric_normal, direction) > 0 ? -1.0f : 1.0f);
+        if (!surfaces_.is_purely_specular(s)) arrivals.push_back({s.position, flux, -direction, ng});
+    }
+
     const RayCaster& caster_;
     SurfaceReader surfaces_;
     Emitters emitters_;

@@ -126,13 +126,15 @@ float RayCaster::opacity(const Hit& hit) const {
 /// `number(hit)` in [0, 1) decides at surfaces that are partly there.
 template <class Choose>
 std::optional<Hit> RayCaster::nearest_chosen(vec3 origin, vec3 direction, float max_distance,
-                                             const Choose& number) const {
+                                             const Choose& number, std::vector<Hit>* passed_hits) const {
     std::optional<Hit> hit = nearest_triangle(origin, direction, max_distance);
     if (!has_holes_) return hit;
     float passed = 0;
     for (int layers = 0; hit && layers < most_layers; ++layers) {
         const float there = opacity(*hit);
         if (there >= 1 || (there > 0 && number(*hit) < there)) break;
+        if (passed_hits && there > 0)
+            passed_hits->push_back({hit->triangle, hit->barycentrics, passed + hit->distance});
         passed += hit->distance + epsilon_;
         hit = nearest_triangle(origin + direction * passed, direction, max_distance - passed);
     }
@@ -148,8 +150,8 @@ std::optional<Hit> RayCaster::nearest(vec3 origin, vec3 direction, float max_dis
     });
 }
 
-std::optional<Hit> RayCaster::nearest(vec3 origin, vec3 direction, Rng& rng) const {
-    return nearest_chosen(origin, direction, 1e30f, [&](const Hit&) { return rng.next(); });
+std::optional<Hit> RayCaster::nearest(vec3 origin, vec3 direction, Rng& rng, std::vector<Hit>* passed) const {
+    return nearest_chosen(origin, direction, 1e30f, [&](const Hit&) { return rng.next(); }, passed);
 }
 
 vec3 RayCaster::transmittance(vec3 from, vec3 to) const {

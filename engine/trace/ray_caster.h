@@ -28,8 +28,9 @@ class RayCaster {
     /// same way at the same place.
     std::optional<Hit> nearest(vec3 origin, vec3 direction, float max_distance = 1e30f) const;
 
-    /// The same, but a blended surface is met with the probability of its alpha: for paths, whose mean counts.
-    std::optional<Hit> nearest(vec3 origin, vec3 direction, Rng& rng) const;
+    /// The same, but a blended surface is met with the probability of its alpha: for paths, whose mean counts. `passed`
+    /// takes those that were not: they are lit all the same.
+    std::optional<Hit> nearest(vec3 origin, vec3 direction, Rng& rng, std::vector<Hit>* passed = nullptr) const;
 
     /// Fraction of light (per RGB) that passes between two points, by the rule of passed_by() in shaders/bsdf.glsl: 0
     /// when blocked, the tint of thin smooth glass, 1 - alpha of blends.
@@ -47,7 +48,8 @@ class RayCaster {
     std::optional<Hit> nearest_triangle(vec3 origin, vec3 direction, float max_distance) const;
     float opacity(const Hit& hit) const;
     template <class Choose>
-    std::optional<Hit> nearest_chosen(vec3 origin, vec3 direction, float max_distance, const Choose& number) const;
+    std::optional<Hit> nearest_chosen(vec3 origin, vec3 direction, float max_distance, const Choose& number,
+                                      std::vector<Hit>* passed_hits = nullptr) const;
 
     const Scene& scene_;
     SurfaceReader surfaces_;

@@ -133,7 +133,7 @@ TEST(Window, GoesThroughAllViewsAndTogglesWithoutValidationMessages) {
     }
     xdotool("mousemove --window " + window.id() + " 160 170 click 3");
     window.key("r");
-    EXPECT_TRUE(window.waits_for("walk saved"));
+    EXPECT_TRUE(window.waits_for("walk saved")) << window.process().err_so_far();
     EXPECT_TRUE(window.says("no camera or bookmark 9"));
     expect_clean_end(window.close());
 }

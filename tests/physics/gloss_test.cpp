@@ -48,69 +48,60 @@ struct Room {
 
 constexpr uint width = 64, height = 48;
 
-struct Means {
-    double picture = 0, truth = 0, error = 0;
-};
-
-/// Mean luminance of what pixels that see a material show, in the default mode and in the reference.
-Means means_of(const Room& room, const std::string& material, uint mode, uint64_t samples) {
-    const Device device(DeviceSettings{"", true});
-    const Resident resident(device, room.scene, room.map, room.bvh);
-    Renderer renderer(device, resident, width, height);
-    RenderSettings settings;
-    settings.gather.mode = mode;
-    settings.gather.paths = 16;
-    const Image got = renderer.render(room.scene.cameras[0], settings).image;
-    for (const std::string& message : device.validation_messages()) ADD_FAILURE() << message;
+/// Mean luminance of what pixels that see a material show, in the default modes and in the reference.
+void expect_agreement(const Room& room, const std::vector<std::string>& materials, double tolerance,
+                      uint64_t samples = 64) {
     ReferenceSettings reference;
     reference.width = width, reference.height = height, reference.samples = samples;
     reference.illuminance = false;
     const Image truth = render_reference(room.scene, room.caster, room.scene.cameras[0], room.weights, reference).image;
-    Means means;
-    double error2 = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < got.pixel_count(); ++i) {
-        const float triangle = truth.find("triangle")->values[i];
-        if (triangle < 0) continue;
-        const Object& object = room.scene.objects[room.scene.triangle_objects[size_t(triangle)]];
-        if (room.scene.material_names[object.material] != material) continue;
-        ++count;
-        means.picture += double(got.find("G")->values[i]);
-        means.truth += double(truth.find("G")->values[i]);
-        error2 += std::pow(double(truth.find("error.G")->values[i]), 2);
-        EXPECT_TRUE(std::isfinite(got.find("G")->values[i])) << i;
-    }
-    EXPECT_GT(count, 30u);
-    means.error = std::sqrt(error2);
-    return means;
-}
-
-void expect_agreement(const Room& room, const std::string& material, double tolerance, uint64_t samples = 64) {
+    const Device device(DeviceSettings{"", true});
+    const Resident resident(device, room.scene, room.map, room.bvh);
+    Renderer renderer(device, resident, width, height);
     for (uint mode : {gather_mode_cached, gather_mode_smooth}) {
-        const Means means = means_of(room, material, mode, samples);
-        EXPECT_LT(means.error, 0.05 * means.truth);
-        EXPECT_NEAR(means.picture / means.truth, 1, tolerance + 3 * means.error / means.truth)
-            << room.scene.path << ", " << material << ", mode " << mode;
+        RenderSettings settings;
+        settings.gather.mode = mode;
+        settings.gather.paths = 16;
+        const Image got = renderer.render(room.scene.cameras[0], settings).image;
+        for (const std::string& material : materials) {
+            double picture = 0, wanted = 0, error2 = 0;
+            size_t count = 0;
+            for (size_t i = 0; i < got.pixel_count(); ++i) {
+                const float triangle = truth.find("triangle")->values[i];
+                if (triangle < 0) continue;
+                const Object& object = room.scene.objects[room.scene.triangle_objects[size_t(triangle)]];
+                if (room.scene.material_names[object.material] != material) continue;
+                ++count;
+                picture += double(got.find("G")->values[i]);
+                wanted += double(truth.find("G")->values[i]);
+                error2 += std::pow(double(truth.find("error.G")->values[i]), 2);
+                EXPECT_TRUE(std::isfinite(got.find("G")->values[i])) << i;
+            }
+            EXPECT_GT(count, 30u);
+            const double error = std::sqrt(error2) / wanted;
+            EXPECT_LT(error, 0.05);
+            EXPECT_NEAR(picture / wanted, 1, tolerance + 3 * error)
+                << room.scene.path << ", " << material << ", mode " << mode;
+        }
     }
+    for (const std::string& message : device.validation_messages()) ADD_FAILURE() << message;
 }
 
 TEST(Gloss, APolishedFloorShowsWhatThePathTracerShowsAtEveryRoughness) {
     for (float roughness : {0.0f, 0.1f, 0.3f, 0.6f})
         expect_agreement(Room("glossy_floor.gltf",
                               [&](Scene& scene) { material_named(scene, "polished").roughness = roughness; }, 300000),
-                         "polished", 0.01);
+                         {"polished"}, 0.01);
 }
 
 TEST(Gloss, AMetalRingAndAMirrorBallShowWhatThePathTracerShows) {
     const Room room("metal_sculpture.gltf", nullptr, 300000);
-    expect_agreement(room, "gold", 0.02);
-    expect_agreement(room, "chrome", 0.02);
+    expect_agreement(room, {"gold", "chrome"}, 0.02);
 }
 
 TEST(Gloss, AGlassBallAndATintedSheetShowWhatThePathTracerShows) {
     const Room room("glass_sphere.gltf", nullptr, 300000);
-    expect_agreement(room, "solid", 0.02);
-    expect_agreement(room, "sheet", 0.02);
+    expect_agreement(room, {"solid", "sheet"}, 0.02);
 }
 
 TEST(Gloss, RoughGlassShowsWhatThePathTracerShows) {
@@ -120,8 +111,7 @@ TEST(Gloss, RoughGlassShowsWhatThePathTracerShows) {
                         material_named(scene, "sheet").roughness = 0.4f;
                     },
                     300000);
-    expect_agreement(room, "sheet", 0.03);
-    expect_agreement(room, "solid", 0.03);
+    expect_agreement(room, {"sheet", "solid"}, 0.03, 1024);  // what rough glass throws is found by chance only
 }
 
 TEST(Gloss, ABlendedSheetIsLaidOverWhatIsBehind) {
@@ -131,7 +121,7 @@ TEST(Gloss, ABlendedSheetIsLaidOverWhatIsBehind) {
                         m.transmission = 0, m.specular = 0, m.flags |= material_alpha_blend, m.alpha = 0.3f;
                     },
                     300000);
-    expect_agreement(room, "sheet", 0.02);
+    expect_agreement(room, {"sheet"}, 0.02);
 }
 
 TEST(Gloss, ASceneWithoutItFollowsNothing) {

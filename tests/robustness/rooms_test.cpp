@@ -285,9 +285,9 @@ TEST(RobustnessOnADevice, AnyCameraShowsLightThatIsANumber) {
     Renderer renderer(device, resident, 16, 12);
     const Camera eye = baked.scene.cameras[0];
     std::vector<float> middle;
-    for (float degrees : {1.0f, 60.0f, 170.0f})
-        for (const vec3 moved_by : {vec3(0), vec3(0, 2, 0), vec3(0, -1.6f, 0), vec3(0.8f, 0, 0), vec3(50, 0, 0)})
-            for (uint mode : modes) {
+    for (uint mode : modes)  // outermost: each has pipelines of its own
+        for (float degrees : {1.0f, 60.0f, 170.0f})
+            for (const vec3 moved_by : {vec3(0), vec3(0, 2, 0), vec3(0, -1.6f, 0), vec3(0.8f, 0, 0), vec3(50, 0, 0)}) {
                 Camera camera = eye;
                 camera.yfov = glm::radians(degrees);
                 camera.position += moved_by;  // inside the ceiling, on the floor, on a wall, outside
