@@ -19,6 +19,7 @@ struct PathNumbers {
     uint seed;
     vec2 shift;
     uint index;
+    uint random;  // of this path alone
 };
 
 /// The shifts of a tile of 4 x 4 pixels are a grid, so that neighbours complete each other.
@@ -27,6 +28,7 @@ PathNumbers path_numbers(uvec2 pixel, Following following, uint sample_index) LW
     numbers.shift = vec2(float((pixel.x + 2u * pixel.y) & 3u), float((pixel.y + 2u * pixel.x) & 3u)) / 4.0f;
     numbers.seed = hash_uint(pixel.x / 4u + 4096u * (pixel.y / 4u) + 0x01000193u * (following.branch + 2u * following.depth));
     numbers.index = sample_index * following.paths + following.path;
+    numbers.random = hash_uint(numbers.seed + hash_uint(numbers.index + 65536u * (4u * (pixel.x & 3u) + (pixel.y & 3u))));
     return numbers;
 }
 
@@ -35,15 +37,21 @@ uint seed_at_end(uint seed, Following following) LW_MEMBER {
     return hash_uint(seed + 0x9e3779b9u * (1u + following.branch + 2u * following.depth + 4u * following.path));
 }
 
+/// For the facet of the surface before which `surface` others were met: stratified over the paths at the first one, random
+/// at the others, as the same sequence at two of them would pair their facets.
 vec2 lobe_numbers(PathNumbers numbers, uint surface) LW_MEMBER {
-    uint random = hash_uint(numbers.seed + 0x9e3779b9u * surface);
+    uint random = hash_uint(numbers.seed + 0x9e3779b9u * surface + (surface > 0u ? numbers.random : 0u));
+    if (surface > 0u) return vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
     vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
     return fract(start + numbers.shift + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
 }
 
+/// For the way on from a surface, in [0, 1): stratified at the first two.
 float choice_number(PathNumbers numbers, uint surface) LW_MEMBER {
-    uint random = hash_uint(numbers.seed ^ (0x85ebca6bu * (surface + 1u)));
-    float start = float(random >> 8) / 16777216.0f + numbers.shift.x + 0.25f * numbers.shift.y;
+    uint random = hash_uint((numbers.seed ^ (0x85ebca6bu * (surface + 1u))) + (surface > 1u ? numbers.random : 0u));
+    float start = float(random >> 8) / 16777216.0f;
+    if (surface > 1u) return start;
+    start += numbers.shift.x + 0.25f * numbers.shift.y;
     return min(fract(start + float(numbers.index & 0xffffu) * 0.618033989f), 0.99999994f);
 }
 
@@ -155,17 +163,11 @@ ViewRay no_ray() LW_MEMBER {
     return ray;
 }
 
-/// How likely a path goes through glass: by Fresnel's factor, but of a rough surface some facets pass what others reflect totally.
-float chance_through(Seen seen) LW_MEMBER {
-    float part = largest(transmitted_part(seen.surface, max(dot(seen.n_shading, seen.to_eye), 1e-4f), is_inside(seen)));
-    return transmits_smoothly(seen.surface) ? part : max(part, 0.1f * seen.surface.transmission * (1.0f - seen.surface.metallic));
-}
-
 /// What the eye sees through a surface: straight on past a blend, or through glass, by chance where it is both.
 ViewRay ray_behind(Seen seen, PathNumbers numbers) LW_MEMBER {
     Surface s = seen.surface;
     float there = opacity_at(seen.triangle, s);
-    float glass = is_glass(s) ? there * chance_through(seen) : 0.0f;
+    float glass = is_glass(s) ? there * s.transmission * (1.0f - s.metallic) : 0.0f;
     float sum = 1.0f - there + glass;
     bool past = choice_number(numbers, 0u) * sum < 1.0f - there;
     ViewRay ray = no_ray();
@@ -238,14 +240,15 @@ struct Ways {
     float through;
 };
 
-Ways ways_on(Seen seen) LW_MEMBER {
+/// By what the facet does that the lobes sample with `u`: beside one that reflects totally, others may pass.
+Ways ways_on(Seen seen, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
-    float nv = max(dot(seen.n_shading, seen.to_eye), 1e-4f);
+    float nv = max(dot(facet_normal(s, seen.n_shading, seen.to_eye, u), seen.to_eye), 1e-4f);
     vec3 fresnel = dielectric_fresnel(s, nv, is_inside(seen));
     Ways ways;
     ways.here = largest(s.base_color) * max(passed_by_fresnel(fresnel), 0.0f) * (1.0f - s.transmission) * (1.0f - s.metallic);
     ways.reflected = largest(specular_reflectance(s, nv, is_inside(seen)));
-    ways.through = has_transmission ? chance_through(seen) : 0.0f;
+    ways.through = has_transmission ? largest(transmitted_part(s, nv, is_inside(seen))) : 0.0f;
     if (has_direct && s.roughness * s.roughness >= smallest_alpha)
         ways.here = max(ways.here, least_part_here * (ways.reflected + ways.through));
     float sum = max(ways.here + ways.reflected + ways.through, 1e-20f);
@@ -279,7 +282,8 @@ PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
         choice /= there;
         end.glow += ray.weight * own_radiance(s, seen.front) * share_of_ray(s, ray);
         if ((s.flags & material_unlit) != 0u) return end;
-        Ways ways = ways_on(seen);
+        vec2 u = lobe_numbers(numbers, met);
+        Ways ways = ways_on(seen, u);
         bool smooth_lobe = s.roughness * s.roughness < smallest_alpha;
         bool passes = is_glass(s) || (smooth_lobe && s.metallic > 0.5f);
         if (!passes || (choice >= ways.through + ways.reflected && ways.here > 1e-4f)) {
@@ -293,10 +297,10 @@ PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
         }
         vec3 weight = ray.weight;
         if (choice < ways.through) {
-            ray = transmitted_ray(seen, ray, lobe_numbers(numbers, met));
+            ray = transmitted_ray(seen, ray, u);
             ray.weight /= ways.through;
         } else {
-            ray = reflected_ray(seen, ray.medium, lobe_numbers(numbers, met));
+            ray = reflected_ray(seen, ray.medium, u);
             ray.weight *= weight / ways.reflected;
             if (!has_direct) ray.pdf = 0.0f;  // no light samples beside it
         }

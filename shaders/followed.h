@@ -11,7 +11,7 @@ LW_CONST uint most_followed_surfaces = 16u;
 /// A lobe that brings so much of what a surface shows is worth a second path.
 LW_CONST float strong_lobe = 0.25f;
 /// At rough glass, how often a path ends to gather the light of small lamps, beside how often it goes on.
-LW_CONST float least_part_here = 0.25f;
+LW_CONST float least_part_here = 0.5f;
 
 /// The ways on from a surface, each with its own list of pixels behind those of the rays.
 LW_CONST uint branch_reflected = 0u;
