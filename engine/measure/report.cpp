@@ -16,7 +16,7 @@ constexpr float plan_band = 0.5f;  // m around a grid
 constexpr int plan_width = 720, picture_width = 720, picture_height = 405;
 
 constexpr const char* style = R"(<style>
-body{font:14px/1.45 system-ui,sans-serif;max-width:72em;margin:2em auto;padding:0 1em;color:#1c1c22}
+body{font:14px/1.45 system-ui,sans-serif;max-width:78em;margin:2em auto;padding:0 1em;color:#1c1c22}
 h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #ccc}
 table{border-collapse:collapse;margin:.8em 0}td,th{white-space:nowrap;padding:.25em .7em;border-bottom:1px solid #ddd;text-align:right}
 td:first-child,th:first-child{text-align:left}.pass{color:#08702c;font-weight:600}.fail{color:#b00020;font-weight:600}
@@ -167,6 +167,15 @@ std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster&
     return text;
 }
 
+/// Bounds of the colours of a picture: all it shows but the darkest and the brightest hundredth, three decades at most.
+std::pair<double, double> range_of_picture(std::vector<double> lux) {
+    std::erase_if(lux, [](double value) { return !(value > 0); });
+    if (lux.empty()) return {1e-8, 1e-6};
+    std::sort(lux.begin(), lux.end());
+    const double high = lux[lux.size() * 99 / 100];
+    return {std::clamp(lux[lux.size() / 100], high * 1e-3, high * 0.5), high};
+}
+
 std::string pictures_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const PowerSetting& ambiance,
                         const std::vector<std::string>& cameras) {
     std::string text;
@@ -174,9 +183,7 @@ std::string pictures_of(const Survey& survey, const Scene& scene, const RayCaste
         std::vector<double> lux = seen_illuminance(scene, caster, survey.map, find_camera(scene, name), ambiance,
                                                    picture_width, picture_height);
         for (double& value : lux) value *= double(survey.maintenance);
-        std::vector<double> sorted = lux;
-        std::sort(sorted.begin(), sorted.end());
-        const double high = std::max(sorted[sorted.size() * 99 / 100], 1e-6), low = high * 1e-2;
+        const auto [low, high] = range_of_picture(lux);
         Rgb8Image image{picture_width, picture_height, {}};
         for (const double value : lux)
             for (const uint8_t code : value > 0 ? false_color(log_share(value, low, high)) : std::array<uint8_t, 3>{})
