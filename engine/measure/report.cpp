@@ -167,15 +167,6 @@ std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster&
     return text;
 }
 
-/// Bounds of the colours of a picture: all it shows but the darkest and the brightest hundredth, three decades at most.
-std::pair<double, double> range_of_picture(std::vector<double> lux) {
-    std::erase_if(lux, [](double value) { return !(value > 0); });
-    if (lux.empty()) return {1e-8, 1e-6};
-    std::sort(lux.begin(), lux.end());
-    const double high = lux[lux.size() * 99 / 100];
-    return {std::clamp(lux[lux.size() / 100], high * 1e-3, high * 0.5), high};
-}
-
 std::string pictures_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const PowerSetting& ambiance,
                         const std::vector<std::string>& cameras) {
     std::string text;
