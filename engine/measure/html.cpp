@@ -110,8 +110,8 @@ std::string grid_drawing(const MeasuredSet& measured, const std::vector<Value>& 
     const GridShape& grid = measured.set.grid;
     const vec2 cell(length(grid.across), length(grid.along));
     const double wide = double(cell.x) * grid.columns, tall = double(cell.y) * grid.rows, edge = double(band);
-    const double letter = std::min({double(cell.x) / 4, double(cell.y) / 2.6, wide / 36});
     const double unit = (wide + 2 * edge) / drawing_width;  // m per CSS pixel
+    const double letter = std::min({double(cell.x) / 4, double(cell.y) / 2.6, 13 * unit});
     std::string text =
         printed("<svg class=plan viewBox=\"%.4g %.4g %.4g %.4g\" style=\"font-size:%.4gpx;stroke-width:%.4g\">\n",
                 -edge, -edge, wide + 2 * edge, tall + 2 * edge, letter, 1.4 * unit);

@@ -22,11 +22,11 @@ table{border-collapse:collapse;margin:.8em 0}td,th{white-space:nowrap;padding:.2
 td:first-child,th:first-child{text-align:left}.pass{color:#08702c;font-weight:600}.fail{color:#b00020;font-weight:600}
 .undecided{color:#8a5a00;font-weight:600}.note{color:#555}.warning{background:#fff3d6;padding:.5em .8em;border-left:4px solid #e0a100}
 svg.plan,img.view{display:block;width:100%;max-width:720px;background:#fff}
-svg text{text-anchor:middle;dominant-baseline:central;fill:#111}text.doubtful{fill:#b00020;font-style:italic}text.blocked{fill:#888;text-decoration:line-through}
+svg text{text-anchor:middle;dominant-baseline:central;fill:#111;paint-order:stroke;stroke:#ffffffa0;stroke-width:.22em}text.doubtful{fill:#b00020;font-style:italic}text.blocked{fill:#888;text-decoration:line-through}
 .iso{fill:none;stroke:#000}.level{font-weight:700;paint-order:stroke;stroke:#fff;stroke-width:.3em;fill:#000}
 .field{fill:none;stroke:#000;stroke-dasharray:.06 .06}
 .legend{position:relative;height:2.6em;max-width:720px;margin:.4em 0}.bar{position:absolute;left:0;right:0;top:0;height:1em}
-.tick{position:absolute;top:1.1em;transform:translateX(-50%);font-size:12px}.unit{position:absolute;right:0;top:1.1em;font-size:12px}
+.tick{position:absolute;top:1.1em;transform:translateX(-50%);font-size:12px;white-space:nowrap}.unit{position:absolute;right:0;top:1.1em;font-size:12px}
 </style>)";
 
 std::string cell(const std::string& text) { return "<td>" + text + "</td>"; }
