@@ -202,6 +202,7 @@ TEST(Grid, SurfacePointsAreEvenByArea) {
 TEST(Statistics, JudgeATaskOnlyOutsideTheInterval) {
     const auto judged = [](double average, double half_width) {
         Statistics s;
+        s.count = 1;
         s.average = {average, half_width};
         s.u0 = {0.7, 0.01};
         return judge(s, find_task("office")).both();
@@ -210,6 +211,7 @@ TEST(Statistics, JudgeATaskOnlyOutsideTheInterval) {
     EXPECT_EQ(judged(505, 10), Verdict::undecided);
     EXPECT_EQ(judged(495, 10), Verdict::undecided);
     EXPECT_EQ(judged(480, 10), Verdict::fail);
+    EXPECT_EQ(judge(Statistics{}, find_task("office")).both(), Verdict::undecided) << "all sensors blocked";
     EXPECT_NE(error_of([] { find_task("nap"); }).find("there are: office"), std::string::npos);
 }
 
