@@ -109,8 +109,8 @@ void draw_reflections(const Session& s, const ReflectionReport* report) {
                           ImVec2(float(e.x1) * pixel.x, float(e.y1) * pixel.y), IM_COL32(255, 60, 200, 255), 2);
         draw_plate(r.x * pixel.x + 8, r.y * pixel.y + 8, describe(s.world.scene, r), IM_COL32(255, 150, 225, 255));
     }
-    const std::string sum = std::to_string(report->found.size()) + " reflections, UGR " + format("%.1f", report->ugr) +
-                            format(" (lamps alone %.1f)", report->ugr_lamps);
+    const std::string sum = std::to_string(report->found.size()) + " reflections, UGR " + rating_text(report->ugr) +
+                            " (lamps alone " + rating_text(report->ugr_lamps) + ")";
     draw_plate(0.5f * size.x - 120, 12, sum);
 }
 

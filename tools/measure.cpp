@@ -125,8 +125,8 @@ void print_reflections(const Options& o, const lw::Scene& scene, const std::stri
         std::printf("  %s; %.2g sr, position index %.1f, at pixel %.0f, %.0f of %dx%d\n",
                     lw::describe(scene, found).c_str(), found.solid_angle, found.position_index, double(found.x),
                     double(found.y), report.width, report.height);
-    std::printf("UGR %.1f, of the lamps alone %.1f; background %.3g cd/m2\n", report.ugr, report.ugr_lamps,
-                report.background);
+    std::printf("UGR %s, of the lamps alone %s; background %.3g cd/m2\n", lw::rating_text(report.ugr).c_str(),
+                lw::rating_text(report.ugr_lamps).c_str(), report.background);
 }
 
 /// Bright reflections of lamps in one view or along a walk, traced without photons.
@@ -237,9 +237,10 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--report", o.report, "self-contained HTML report: tables, plans with isolux lines, camera views");
     app.add_option("--camera", o.cameras, "camera to show in the report in false colours; may be repeated")
         ->allow_extra_args(false);
-    app.add_option("--reflections", o.reflections,
-                   "camera, or file of a recorded walk (.json), whose views are searched for bright reflections of lamps; "
-                   "needs no map");
+    app.add_option(
+        "--reflections", o.reflections,
+        "camera, or file of a recorded walk (.json), whose views are searched for bright reflections of lamps; "
+        "needs no map");
     app.add_option("--reflections-step", o.reflections_step, "seconds between the views along a recorded walk")
         ->capture_default_str()
         ->check(CLI::Range(0.01, 3600.0));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "base/parallel.h"
@@ -23,6 +24,13 @@ double glare_of(const GlareSource& source, vec3 forward, vec3 up) {
 double unified_glare_rating(double sum_of_glare, double background) {
     if (!(sum_of_glare > 0)) return -std::numeric_limits<double>::infinity();
     return 8 * std::log10(0.25 * sum_of_glare / std::max(background, 1e-6));
+}
+
+std::string rating_text(double rating) {
+    if (!std::isfinite(rating)) return "none";
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", rating);
+    return text;
 }
 
 std::vector<GlareSource> find_visible_lamps(const Scene& scene, const RayCaster& caster, const Camera& camera,

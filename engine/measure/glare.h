@@ -2,6 +2,7 @@
 // Out: luminance (cd/m2), solid angle (sr) and Guth position index of each source, background luminance, UGR.
 #pragma once
 #include <span>
+#include <string>
 #include <vector>
 
 #include "trace/path_tracer.h"
@@ -21,6 +22,9 @@ double glare_of(const GlareSource& source, vec3 forward, vec3 up);
 
 /// UGR = 8 lg(0.25 / background x sum), background in cd/m2; -infinity without glare.
 double unified_glare_rating(double sum_of_glare, double background);
+
+/// "19.3", or "none" without glare.
+std::string rating_text(double rating);
 
 /// The emissive meshes that the eye of the camera sees, anywhere before it, through thin glass too; one source per
 /// lamp. Punctual lamps have no size and are left out. `samples` points are looked at per lamp.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "image/png.h"
 #include "measure/isolux.h"
@@ -46,13 +47,15 @@ Rgb8Image colored_grid(const std::vector<Value>& values, const GridShape& grid, 
     return image;
 }
 
-/// Where a line is farthest from the numbers, which stand in the middles of the cells.
-vec2 label_place(const std::vector<IsoluxSegment>& line) {
+/// Where a line is farthest from the numbers, which stand in the middles of the cells; nowhere if it would hide one.
+std::optional<vec2> label_place(const std::vector<IsoluxSegment>& line) {
+    constexpr float beside_number = 0.25f;  // cells
     const auto off = [](vec2 at) { return length(fract(at) - vec2(0.5f)); };
     vec2 best = line[0].from;
     for (const IsoluxSegment& s : line)
         for (const vec2 at : {s.from, 0.5f * (s.from + s.to)})
             if (off(at) > off(best)) best = at;
+    if (off(best) < beside_number) return std::nullopt;
     return best;
 }
 
@@ -69,8 +72,10 @@ std::string isolux_paths(const std::vector<Value>& values, const GridShape& grid
         for (const IsoluxSegment& s : line)
             text += printed("M%.4g %.4gL%.4g %.4g", double(s.from.x * cell.x), double(s.from.y * cell.y),
                             double(s.to.x * cell.x), double(s.to.y * cell.y));
-        const vec2 at = label_place(line) * cell;
-        text += printed("\"/><text class=level x=%.4g y=%.4g>%g</text>\n", double(at.x), double(at.y), level);
+        text += "\"/>\n";
+        if (const auto at = label_place(line))
+            text += printed("<text class=level x=%.4g y=%.4g>%g</text>\n", double(at->x * cell.x),
+                            double(at->y * cell.y), level);
     }
     return text;
 }
@@ -105,8 +110,8 @@ std::string grid_drawing(const MeasuredSet& measured, const std::vector<Value>& 
     const GridShape& grid = measured.set.grid;
     const vec2 cell(length(grid.across), length(grid.along));
     const double wide = double(cell.x) * grid.columns, tall = double(cell.y) * grid.rows, edge = double(band);
-    const double letter = std::min({double(cell.x) / 4, double(cell.y) / 2.6, wide / 36});
     const double unit = (wide + 2 * edge) / drawing_width;  // m per CSS pixel
+    const double letter = std::min({double(cell.x) / 4, double(cell.y) / 2.6, 13 * unit});
     std::string text =
         printed("<svg class=plan viewBox=\"%.4g %.4g %.4g %.4g\" style=\"font-size:%.4gpx;stroke-width:%.4g\">\n",
                 -edge, -edge, wide + 2 * edge, tall + 2 * edge, letter, 1.4 * unit);

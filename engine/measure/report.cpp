@@ -16,17 +16,17 @@ constexpr float plan_band = 0.5f;  // m around a grid
 constexpr int plan_width = 720, picture_width = 720, picture_height = 405;
 
 constexpr const char* style = R"(<style>
-body{font:14px/1.45 system-ui,sans-serif;max-width:72em;margin:2em auto;padding:0 1em;color:#1c1c22}
+body{font:14px/1.45 system-ui,sans-serif;max-width:78em;margin:2em auto;padding:0 1em;color:#1c1c22}
 h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #ccc}
 table{border-collapse:collapse;margin:.8em 0}td,th{white-space:nowrap;padding:.25em .7em;border-bottom:1px solid #ddd;text-align:right}
 td:first-child,th:first-child{text-align:left}.pass{color:#08702c;font-weight:600}.fail{color:#b00020;font-weight:600}
 .undecided{color:#8a5a00;font-weight:600}.note{color:#555}.warning{background:#fff3d6;padding:.5em .8em;border-left:4px solid #e0a100}
 svg.plan,img.view{display:block;width:100%;max-width:720px;background:#fff}
-svg text{text-anchor:middle;dominant-baseline:central;fill:#111}text.doubtful{fill:#b00020;font-style:italic}text.blocked{fill:#888;text-decoration:line-through}
+svg text{text-anchor:middle;dominant-baseline:central;fill:#111;paint-order:stroke;stroke:#ffffffa0;stroke-width:.22em}text.doubtful{fill:#b00020;font-style:italic}text.blocked{fill:#888;text-decoration:line-through}
 .iso{fill:none;stroke:#000}.level{font-weight:700;paint-order:stroke;stroke:#fff;stroke-width:.3em;fill:#000}
 .field{fill:none;stroke:#000;stroke-dasharray:.06 .06}
 .legend{position:relative;height:2.6em;max-width:720px;margin:.4em 0}.bar{position:absolute;left:0;right:0;top:0;height:1em}
-.tick{position:absolute;top:1.1em;transform:translateX(-50%);font-size:12px}.unit{position:absolute;right:0;top:1.1em;font-size:12px}
+.tick{position:absolute;top:1.1em;transform:translateX(-50%);font-size:12px;white-space:nowrap}.unit{position:absolute;right:0;top:1.1em;font-size:12px}
 </style>)";
 
 std::string cell(const std::string& text) { return "<td>" + text + "</td>"; }
@@ -174,9 +174,7 @@ std::string pictures_of(const Survey& survey, const Scene& scene, const RayCaste
         std::vector<double> lux = seen_illuminance(scene, caster, survey.map, find_camera(scene, name), ambiance,
                                                    picture_width, picture_height);
         for (double& value : lux) value *= double(survey.maintenance);
-        std::vector<double> sorted = lux;
-        std::sort(sorted.begin(), sorted.end());
-        const double high = std::max(sorted[sorted.size() * 99 / 100], 1e-6), low = high * 1e-2;
+        const auto [low, high] = range_of_picture(lux);
         Rgb8Image image{picture_width, picture_height, {}};
         for (const double value : lux)
             for (const uint8_t code : value > 0 ? false_color(log_share(value, low, high)) : std::array<uint8_t, 3>{})

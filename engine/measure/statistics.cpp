@@ -54,6 +54,7 @@ Statistics statistics_of(std::span<const Reading> readings, std::span<const Valu
 }
 
 Judgement judge(const Statistics& statistics, const Task& task) {
+    if (statistics.count == 0) return {Verdict::undecided, Verdict::undecided};
     return {compare(statistics.average, task.illuminance), compare(statistics.u0, task.uniformity)};
 }
 

@@ -35,7 +35,7 @@ struct Judgement {
     Verdict both() const;
 };
 
-/// Undecided when the requirement lies within the interval.
+/// Undecided when the requirement lies within the interval, or when no sensor counts.
 Judgement judge(const Statistics& statistics, const Task& task);
 
 std::string name_of(Verdict verdict);

@@ -23,6 +23,7 @@ const std::vector<Task>& known_tasks() {
         {"circulation-faces", 50, 0.1, 2021, "mean cylindrical illuminance in circulation areas (9.1)"},
         {"classroom", 500, 0.6, 2021, "classrooms, general activities (44.1)"},
         {"lecture", 500, 0.6, 2021, "auditoriums, lecture halls (44.2)"},
+        {"school-stairs", 150, 0.4, 2021, "stairs of schools (44)"},
         {"classroom-2011", 300, 0.6, 2011, "classrooms, tutorial rooms (5.36.1)"},
         {"canteen", 200, 0.4, 2011, "canteens, pantries (5.2.1)"},
         {"restroom", 100, 0.4, 2011, "rest rooms (5.2.2)"},

@@ -1,5 +1,6 @@
 #include "measure/view.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -67,6 +68,14 @@ std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster
         }
     });
     return lux;
+}
+
+std::pair<double, double> range_of_picture(std::vector<double> lux) {
+    std::erase_if(lux, [](double value) { return !(value > 0); });
+    if (lux.empty()) return {1e-8, 1e-6};
+    std::sort(lux.begin(), lux.end());
+    const double high = lux[lux.size() * 99 / 100];
+    return {std::clamp(lux[lux.size() / 100], high * 1e-3, high * 0.5), high};
 }
 
 }  // namespace lw

@@ -15,4 +15,8 @@ Rgb8Image plan_view(const Scene& scene, const RayCaster& caster, const SensorSet
 std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
                                      const Camera& camera, const PowerSetting& ambiance, int width, int height);
 
+/// Bounds of the colours of such a picture, lx: all it shows but the darkest and the brightest hundredth, three decades
+/// at most; places where nothing is seen do not count.
+std::pair<double, double> range_of_picture(std::vector<double> lux);
+
 }  // namespace lw

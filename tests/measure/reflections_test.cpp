@@ -29,6 +29,11 @@ TEST(Glare, PositionIndexIsGuthsTable) {
     EXPECT_NEAR(at(0, 1), 7.00, 1e-4);
     EXPECT_NEAR(at(2, 1.9), 16, 1e-4);
     EXPECT_NEAR(at(0.95, 0.25), (2.54 + 2.90 + 2.75 + 3.10) / 4, 1e-4);
+    EXPECT_NEAR(at(0.9, 0), 1.96, 1e-4);
+    EXPECT_NEAR(at(0.1, 0.2), 1.46, 1e-4);
+    EXPECT_NEAR(at(2.5, 0.2), 4.96, 1e-4);
+    EXPECT_NEAR(at(2.6, 0.5), 6.46, 1e-4);
+    EXPECT_NEAR(at(2.7, 0.6), 7.50, 1e-4);  // as printed, out of line with its neighbours
     EXPECT_NEAR(at(0, -0.5), at(0.5, 0), 1e-6);
     EXPECT_NEAR(at(0.5, 1e-4), at(0.5, -1e-4), 1e-2);
     EXPECT_EQ(at(0.3, 0.2), at(-0.3, 0.2));
@@ -37,7 +42,8 @@ TEST(Glare, PositionIndexIsGuthsTable) {
     EXPECT_TRUE(std::isinf(position_index(vec3(0, 0, 1), forward, up)));
 }
 
-/// Levin's formula (1975) was fitted to the same data as the table: no entry of it is off by more than 10 %.
+/// Levin's formula (1975) was fitted to the same data as the table: no entry of it is off by more than 10 %
+/// but the one that the standard prints out of line with its neighbours.
 TEST(Glare, PositionIndexIsNearLevinsFormula) {
     const vec3 forward(0, 0, -1), up(0, 1, 0);
     for (int t = 0; t <= 30; ++t)
@@ -48,8 +54,14 @@ TEST(Glare, PositionIndexIsNearLevinsFormula) {
             const double levin = std::exp((35.2 - 0.31889 * tau - 1.22 * std::exp(-2 * tau / 9)) * 1e-3 * sigma +
                                           (21 + 0.26667 * tau - 0.002963 * tau * tau) * 1e-5 * sigma * sigma);
             const double p = position_index(normalize(vec3(float(right), float(above), -1)), forward, up);
-            EXPECT_NEAR(p / levin, 1, 0.1) << right << " " << above;
+            const bool printed_out_of_line = t == 27 && h == 6;
+            EXPECT_NEAR(p / levin, 1, printed_out_of_line ? 0.12 : 0.1) << right << " " << above;
         }
+}
+
+TEST(Glare, ARatingWithoutGlareIsNone) {
+    EXPECT_EQ(rating_text(unified_glare_rating(0, 0)), "none");
+    EXPECT_EQ(rating_text(unified_glare_rating(4 * 1e2, 1)), "16.0");
 }
 
 /// A closed black box and a lamp in it: a square of 0.2 m, 1 m straight ahead of the eye.

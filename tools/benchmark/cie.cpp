@@ -5,6 +5,16 @@
 #include "sections.h"
 
 namespace lw {
+namespace {
+
+std::string published_text(const CieResult& result) {
+    if (!result.published) return "";
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", *result.published);
+    return text;
+}
+
+}  // namespace
 
 std::vector<Table> measure_cie171(const Bench& bench) {
     const uint64_t photons = bench.pick<uint64_t>(100'000, 400'000);
@@ -16,6 +26,7 @@ std::vector<Table> measure_cie171(const Bench& bench) {
         table.rows.push_back({{"CIE 171", result.section},
                               {"case", result.what},
                               {"formula", result.formula},
+                              {"published", published_text(result)},
                               {"expected", result.expected},
                               {"measured", result.measured},
                               {"+- (90 %)", result.half_width},

@@ -1,94 +1,15 @@
 #include "cie171.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "cie171_laboratory.h"
 #include "lab_scene.h"
-#include "maps/build.h"
-#include "measure/grid.h"
-#include "measure/survey.h"
-#include "photons/shoot.h"
 
 namespace lw {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-using Corners = std::vector<glm::dvec3>;
-
-/// Configuration factor of a plane element to a polygon wholly above its horizon: Lambert's contour integral (1760).
-double configuration_factor(glm::dvec3 point, glm::dvec3 normal, const Corners& polygon) {
-    double sum = 0;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec3 a = glm::normalize(polygon[i] - point),
-                         b = glm::normalize(polygon[(i + 1) % polygon.size()] - point);
-        sum += std::acos(glm::dot(a, b)) * glm::dot(glm::normalize(glm::cross(a, b)), normal);
-    }
-    return std::abs(sum) / (2 * pi);
-}
-
-Corners rectangle(glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v) {
-    return {corner, corner + u, corner + u + v, corner + v};
-}
-
-class Laboratory {
-  public:
-    explicit Laboratory(uint64_t photons) : photons_(photons) {}
-
-    /// One sensor per point; adds a result for each.
-    void add(const std::string& section, const std::string& what, const std::string& formula, const Scene& scene,
-             const std::vector<Sensor>& sensors, const std::vector<double>& expected) {
-        const Survey survey = measure(scene, {{SensorSet::Kind::points, "points", "", sensors, {}, {}}});
-        const std::vector<Value> values = values_of(survey.sets[0], survey.ambiances[0], 1);
-        for (size_t i = 0; i < sensors.size(); ++i)
-            results.push_back({section, what, formula, expected[i], values[i].lux, values[i].half_width});
-    }
-
-    /// Flux that falls on the objects: mean illuminance times area, lm; or their mean illuminance when `as_mean`.
-    void add_objects(const std::string& section, const std::string& what, const std::string& formula,
-                     const Scene& scene, const std::vector<std::string>& objects, double area_each, double expected,
-                     bool as_mean) {
-        std::vector<SensorSet> sets;
-        for (const std::string& object : objects)
-            sets.push_back(make_surface(object + ": count=" + std::to_string(as_mean ? 64 : 400), scene));
-        const Survey survey = measure(scene, std::move(sets));
-        double sum = 0, error = 0;
-        for (const MeasuredSet& set : survey.sets) {
-            const Statistics s = statistics_of(set.readings, values_of(set, survey.ambiances[0], 1));
-            sum += s.average.value, error += s.average.half_width;
-        }
-        const double factor = as_mean ? 1.0 / double(objects.size()) : area_each;
-        results.push_back({section, what, formula, expected, sum * factor, error * factor});
-    }
-
-    /// Mean illuminance of a grid.
-    void add_grid(const std::string& section, const std::string& what, const std::string& formula, const Scene& scene,
-                  const std::string& grid, double expected) {
-        const Survey survey = measure(scene, {make_grid(parse_grid(grid), scene)});
-        const Statistics s = statistics_of(survey.sets[0].readings, values_of(survey.sets[0], survey.ambiances[0], 1));
-        results.push_back({section, what, formula, expected, s.average.value, s.average.half_width});
-    }
-
-    std::vector<CieResult> results;
-
-  private:
-    Survey measure(const Scene& scene, std::vector<SensorSet> sets) const {
-        const RayCaster caster(scene);
-        BakeSettings settings;
-        settings.photons = photons_;
-        const Photons photons = shoot_photons(scene, caster, {photons_, settings.seed});
-        SurveySettings survey;
-        survey.ray_error = 0.008;
-        return make_survey(scene, caster, build_photon_map(scene, caster, photons, settings), std::move(sets),
-                           {{"all", std::vector<vec3>(scene.lights.size(), vec3(1))}}, survey);
-    }
-
-    uint64_t photons_;
-};
-
-const std::vector<std::string> walls = {"floor", "ceiling", "west", "east", "north", "south"};
-
-Sensor facing(vec3 position, vec3 normal, Response response = Response::planar) {
-    return {position, normalize(normal), response};
-}
 
 void point_source(Laboratory& lab) {
     LabScene room;
@@ -104,8 +25,8 @@ void point_source(Laboratory& lab) {
     }
     sensors.push_back(facing({0, 1, 2}, {1, 0, 0}));
     expected.push_back(1000 * 2 / std::pow(4 + 1.9 * 1.9, 1.5));
-    lab.add("5.2", "point source, floor and wall", "I cos a / d2", scene, sensors, expected);
-    lab.add("-", "point source, cylindrical illuminance", "I sin a / (pi d2)", scene,
+    lab.add({"5.2", "point source, floor and wall", "I cos a / d2"}, scene, sensors, expected);
+    lab.add({"-", "point source, cylindrical illuminance", "I sin a / (pi d2)"}, scene,
             {facing({1, 1, 1}, {0, 1, 0}, Response::cylindrical)},
             {1000 * std::sqrt(2.0) / std::pow(2 + 1.9 * 1.9, 1.5) / pi});
 }
@@ -137,9 +58,9 @@ void photometric_file(Laboratory& lab) {
         sensors.push_back(facing({float(at.x), 0, float(at.y)}, {0, 1, 0}));
         expected.push_back(250 * std::pow(cosine, 8) * (3 + std::cos(2 * c)) * cosine / d2);
     }
-    lab.add("5.2", "photometric file (LM-63, type C), floor", "I(g, C) cos a / d2", room.finish(), sensors, expected);
-    lab.add_objects("5.4", "flux of a photometric file on all walls, lm", "2 pi 750 / 9", flux.finish(), walls, 16,
-                    2 * pi * 750 / 9, false);
+    lab.add({"5.2", "photometric file (LM-63, type C), floor", "I(g, C) cos a / d2"}, room.finish(), sensors, expected);
+    lab.add_flux({"5.4", "flux of a photometric file on all walls, lm", "2 pi 750 / 9"}, flux.finish(), 16,
+                 2 * pi * 750 / 9);
 }
 
 void area_source(Laboratory& lab) {
@@ -157,7 +78,7 @@ void area_source(Laboratory& lab) {
     for (const float x : {2.0f, 1.0f, 0.0f}) sense({x, 0, x}, {0, 1, 0});
     sense({0, 0.5f, 2}, {1, 0, 0});
     sense({0, 2.5f, 2}, {1, 0, 0});
-    lab.add("5.3", "area source, floor and wall", "pi L F", scene, sensors, expected);
+    lab.add({"5.3", "area source, floor and wall", "pi L F"}, scene, sensors, expected);
 }
 
 void flux_conservation(Laboratory& lab) {
@@ -167,13 +88,11 @@ void flux_conservation(Laboratory& lab) {
     with_point.add_point({1.5f, 2.5f, 2}, 100);
     with_spot.add_spot({2, 3.9f, 2}, {0.3f, -1, 0.1f}, 1000, 20, 40);
     with_panel.add_rectangle("panel", {1.5f, 3.5f, 1.5f}, {1, 0, 0}, {0, 0, 1}, 0, 1000);
-    lab.add_objects("5.4", "flux of a point source on all walls, lm", "4 pi I", with_point.finish(), walls, area,
-                    4 * pi * 100, false);
+    lab.add_flux({"5.4", "flux of a point source on all walls, lm", "4 pi I"}, with_point.finish(), area, 4 * pi * 100);
     const double inner = std::cos(20 * pi / 180), outer = std::cos(40 * pi / 180);
-    lab.add_objects("5.4", "flux of a spot on all walls, lm", "2 pi I ((1 - ci) + (ci - co) / 3)", with_spot.finish(),
-                    walls, area, 2 * pi * 1000 * ((1 - inner) + (inner - outer) / 3), false);
-    lab.add_objects("5.4", "flux of an area source on all walls, lm", "pi L A", with_panel.finish(), walls, area,
-                    1000 * pi, false);
+    lab.add_flux({"5.4", "flux of a spot on all walls, lm", "2 pi I ((1 - ci) + (ci - co) / 3)"}, with_spot.finish(),
+                 area, 2 * pi * 1000 * ((1 - inner) + (inner - outer) / 3));
+    lab.add_flux({"5.4", "flux of an area source on all walls, lm", "pi L A"}, with_panel.finish(), area, 1000 * pi);
 }
 
 /// A horizontal plate in the sun at 45 degrees; what it sends to a plane over it and to one beside it.
@@ -185,10 +104,12 @@ void diffuse_reflection(Laboratory& lab) {
         plate.add_sun({0, -1, 1}, float(lux));
         const Corners corners = rectangle({-side / 2, 0, -side / 2}, {side, 0, 0}, {0, 0, side});
         const vec3 above(0, 2, 0), beside(-side / 2, side < 1 ? 0.25f : 3.0f, 0);
-        lab.add("5.6", "diffuse plate " + std::to_string(int(side * 10)) + " dm in the sun, seen from above and beside",
-                "rho E F", plate.finish(), {facing(above, {0, -1, 0}), facing(beside, {1, 0, 0})},
-                {reflected * configuration_factor(glm::dvec3(above), {0, -1, 0}, corners),
-                 reflected * configuration_factor(glm::dvec3(beside), {1, 0, 0}, corners)});
+        lab.add(
+            {"5.6", "diffuse plate " + std::to_string(int(side * 10)) + " dm in the sun, seen from above and beside",
+             "rho E F"},
+            plate.finish(), {facing(above, {0, -1, 0}), facing(beside, {1, 0, 0})},
+            {reflected * configuration_factor(glm::dvec3(above), {0, -1, 0}, corners),
+             reflected * configuration_factor(glm::dvec3(beside), {1, 0, 0}, corners)});
     }
 }
 
@@ -201,7 +122,7 @@ void obstructed_reflection(Laboratory& lab) {
     plate.add_sun({0, -1, 1}, float(lux));
     // The ray from (-1.5, 2) over the edge at (-1, 1.5) meets the floor at x = 0.5.
     const glm::dvec3 at(-1.5, 2, 0);
-    lab.add("5.7", "the plate behind a screen", "rho E F of the part seen", plate.finish(),
+    lab.add({"5.7", "the plate behind a screen", "rho E F of the part seen"}, plate.finish(),
             {facing(vec3(at), {1, 0, 0})},
             {reflected * configuration_factor(at, {1, 0, 0}, rectangle({0.5, 0, -2}, {3.5, 0, 0}, {0, 0, 4}))});
 }
@@ -209,16 +130,11 @@ void obstructed_reflection(Laboratory& lab) {
 void interreflection(Laboratory& lab) {
     for (int tenths = 1; tenths <= 9; ++tenths) {
         const double rho = tenths / 10.0;
-        const std::string text = "0." + std::to_string(tenths);
-        LabScene cube, sphere;
-        cube.add_room({-2, -2, -2}, {2, 2, 2}, float(rho));
-        cube.add_point({0, 0, 0}, 100);
-        lab.add_objects("5.8", "closed cube, reflectance " + text + ", mean", "flux / S / (1 - rho)", cube.finish(),
-                        walls, 16, 4 * pi * 100 / 96 / (1 - rho), true);
+        LabScene sphere;
         sphere.add_sphere({0, 0, 0}, 1, 48, float(rho));
         sphere.add_point({0, 0, 0}, 100);
-        lab.add("5.8", "closed sphere, reflectance " + text, "I / r2 + I / R2 rho / (1 - rho)", sphere.finish(),
-                {facing({0.99f, 0, 0}, {-1, 0, 0})}, {100 / (0.99 * 0.99) + 100 * rho / (1 - rho)});
+        lab.add({"5.8", "closed sphere, reflectance 0." + std::to_string(tenths), "I / r2 + I / R2 rho / (1 - rho)"},
+                sphere.finish(), {facing({0.99f, 0, 0}, {-1, 0, 0})}, {100 / (0.99 * 0.99) + 100 * rho / (1 - rho)});
     }
 }
 
@@ -226,7 +142,7 @@ void furnace(Laboratory& lab) {
     LabScene room;
     room.add_room({-1, -1, -1}, {1, 1, 1}, 0.5f, 100);
     const Scene scene = room.finish();
-    lab.add("-", "glowing closed room, plane and cylinder", "pi L / (1 - rho)", scene,
+    lab.add({"-", "glowing closed room, plane and cylinder", "pi L / (1 - rho)"}, scene,
             {facing({0.2f, 0.1f, 0.3f}, {0, 1, 0}), facing({0.2f, 0.1f, 0.3f}, {0, 1, 0}, Response::cylindrical)},
             {pi * 100 / 0.5, pi * 100 / 0.5});
 }
@@ -247,16 +163,17 @@ void sun_through_window(Laboratory& lab) {
     room.add_sun({1, -1, 0}, 10000);
     const Scene scene = room.finish();
     const double lux = 10000 * std::sqrt(0.5);
-    lab.add("-", "sun through a window, in its patch", "E cos a", scene,
+    lab.add({"-", "sun through a window, in its patch", "E cos a"}, scene,
             {facing({1.5f, 0, 2}, {0, 1, 0}), facing({0.7f, 0.8f, 2}, {0, 1, 0})}, {lux, lux});
     const std::string floor = "floor: 0,0,0 to 4,0,4 spacing=0.1";
-    lab.add_grid("5.4", "mean of the floor, sun through a window", "E cos a A / S", scene, floor, lux / 16);
+    lab.add_grid({"5.4", "mean of the floor, sun through a window", "E cos a A / S"}, scene, floor, lux / 16);
 }
 
 }  // namespace
 
 std::vector<CieResult> run_cie171(unsigned long photons) {
     Laboratory lab(photons);
+    add_published_cases(lab);
     point_source(lab);
     photometric_file(lab);
     area_source(lab);
@@ -266,6 +183,9 @@ std::vector<CieResult> run_cie171(unsigned long photons) {
     interreflection(lab);
     furnace(lab);
     sun_through_window(lab);
+    std::stable_sort(lab.results.begin(), lab.results.end(), [](const CieResult& a, const CieResult& b) {
+        return std::pair(a.section == "-", a.section) < std::pair(b.section == "-", b.section);
+    });
     return lab.results;
 }
 
