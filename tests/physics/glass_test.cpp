@@ -6,9 +6,12 @@
 #include <cmath>
 #include <functional>
 
+#include "maps/build.h"
+#include "maps/estimate.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
 #include "trace/bsdf.h"
+#include "trace/build_bvh.h"
 #include "trace/caustics.h"
 #include "trace/path_tracer.h"
 #include "trace/sampling.h"
@@ -229,6 +232,63 @@ TEST(Glass, AClearBallOrSheetIsInvisibleInAFurnace) {
         const double l = mean_radiance(scene, eye, ball, error);
         EXPECT_NEAR(l, 2, 0.005 + 4 * error);
         EXPECT_LT(error, 0.02);
+    }
+}
+
+/// What a view of the ball shows: by photons, light samples and followed paths, in place of the path tracer.
+double mean_viewed_radiance(const PhotonEstimator& estimator, const RayCaster& caster, vec3 eye, vec3 towards) {
+    double sum = 0;
+    constexpr uint side = 64;
+    const mat3 frame = frame_around(normalize(towards - eye));
+    for (uint i = 0; i < side * side; ++i) {
+        Rng rng(1, 3, i);
+        const vec3 direction = frame * direction_of(1 - 0.01f * rng.next(), rng.next());
+        const auto hit = caster.nearest(eye, direction);
+        if (!hit) {
+            ADD_FAILURE() << "the furnace is not closed";
+            return 0;
+        }
+        const uvec2 pixel(i % side, i / side);
+        sum += double(estimator.shade(hit->triangle, hit->barycentrics, eye, 1 + i, pixel).radiance.y);
+    }
+    return sum / (side * side);
+}
+
+TEST(Glass, AViewOfAFurnaceShowsItsRadianceWhateverStandsInIt) {
+    const Scene thing = load_gltf(file_in_data("glass_sphere.gltf"));
+    const uint solid = material_named(thing, "solid");
+    struct Case {
+        const char* name;
+        std::function<void(Material&)> change;
+    };
+    const auto mirror = [](Material& m) { m.transmission = 0, m.metallic = 1, m.base_color = vec3(1); };
+    const Case cases[] = {
+        {"clear ball", [](Material& m) { m.absorption = vec3(0); }},
+        {"sheet", [](Material& m) { m.absorption = vec3(0), m.flags |= material_thin; }},
+        {"mirror", mirror},
+        {"narrow lobe", [&](Material& m) { mirror(m), m.roughness = 0.2f; }},
+        {"blend of a mirror", [&](Material& m) { mirror(m), m.flags |= material_alpha_blend, m.alpha = 0.4f; }},
+        {"rough ball", [](Material& m) { m.absorption = vec3(0), m.roughness = 0.2f; }},
+        {"white paint under varnish", [](Material& m) { m.transmission = 0, m.base_color = vec3(1), m.roughness = 0.1f; }},
+    };
+    for (const Case& c : cases) {
+        const Scene scene = furnace_with(thing, solid, c.change);
+        const vec3 eye = scene.cameras[0].position, ball(0, -0.15f, 0);
+        double error = 0;
+        const double truth = mean_radiance(scene, eye, ball, error);
+        const RayCaster caster(scene);
+        const PhotonMap map = build_photon_map(
+            scene, caster, shoot_photons(scene, caster, {1'000'000, 1}), {1'000'000, 0, 60, 1});
+        const Bvh bvh = build_bvh(scene);
+        const std::vector<vec3> weights = light_weights(scene, {});
+        for (uint mode : {gather_mode_cached, gather_mode_smooth}) {
+            GatherSettings gather;
+            gather.mode = mode;
+            gather.shadow_rays = 16;  // the walls are the lamp
+            const PhotonEstimator estimator(scene, map, weights, gather, bvh);
+            EXPECT_NEAR(mean_viewed_radiance(estimator, caster, eye, ball) / truth, 1, 0.03) << c.name << " " << mode;
+        }
+        EXPECT_NEAR(truth, 2, 0.06) << c.name;
     }
 }
 
