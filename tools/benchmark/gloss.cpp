@@ -133,14 +133,16 @@ std::vector<Row> measure_room(const Bench& bench, const Room& described) {
                         {120, 90, bench.pick<uint64_t>(64, 400)},
                         bench.pick<uint64_t>(200'000, 4'000'000));
     std::vector<Row> rows;
-    for (uint paths : {1u, 4u, 16u}) {
+    for (uint views : {1u, 8u, 32u, 128u}) {
         GatherSettings gather = default_gather();
-        gather.paths = paths;
-        const TimedFrame frame = room.render(gather, 3);
+        gather.paths *= views, gather.shadow_rays *= views;
+        const TimedFrame frame = room.render(gather, views < 32 ? 3 : 1);
         Row row{{"room", described.file},
                 {"material", described.material},
                 {"roughness", described.roughness},
-                {"paths", paths},
+                {"views", views},
+                {"paths", gather.paths},
+                {"shadow_rays", gather.shadow_rays},
                 {"visibility_ms", frame.rendering.times.visibility_ms},
                 {"gather_ms", frame.rendering.times.gather_ms}};
         const std::vector<bool> caustic = room.caustic_pixels(frame);
@@ -156,16 +158,21 @@ std::vector<Row> measure_room(const Bench& bench, const Room& described) {
 
 }  // namespace
 
-std::vector<Table> measure_gloss(const Bench& bench) {
-    Table threshold{"gloss", "threshold",
-                    "The polished floor of glossy_floor.gltf at several roughnesses: luminance of the floor's pixels against "
-                    "the path tracer, its specular lobe estimated from photons or followed by rays.",
-                    {}};
+std::vector<Table> measure_lobes(const Bench& bench) {
+    Table table{"lobes", "threshold",
+                "The polished floor of glossy_floor.gltf at several roughnesses: luminance of the floor's pixels against "
+                "the path tracer, its specular lobe estimated from photons or followed by rays.",
+                {}};
     for (float roughness : roughnesses)
-        for (Row& row : measure_threshold(bench, roughness)) threshold.rows.push_back(std::move(row));
+        for (Row& row : measure_threshold(bench, roughness)) table.rows.push_back(std::move(row));
+    return {table};
+}
+
+std::vector<Table> measure_gloss(const Bench& bench) {
     Table rooms{"gloss", "rooms",
                 "Rooms of gloss, metal and glass in the default mode, luminance against the path tracer; caustic: pixels "
-                "lit by mirrors and glass alone with more than half the picture's mean illuminance, left out of the rest.",
+                "lit by mirrors and glass alone with more than half the picture's mean illuminance, left out of the rest. "
+                "Paths and shadow rays as in so many views at rest (the window adds up 32), through pixel centres in one frame.",
                 {}};
     for (const Room& room :
          {Room{"glossy_floor.gltf", "polished", 0.05f}, Room{"glossy_floor.gltf", "polished", 0.2f},
@@ -173,7 +180,7 @@ std::vector<Table> measure_gloss(const Bench& bench) {
           Room{"metal_sculpture.gltf", "gold", 0.3f}, Room{"metal_sculpture.gltf", "gold", 0.5f},
           Room{"glass_sphere.gltf", "solid", 0}, Room{"glass_sphere.gltf", "solid", 0.2f}})
         for (Row& row : measure_room(bench, room)) rooms.rows.push_back(std::move(row));
-    return {threshold, rooms};
+    return {rooms};
 }
 
 }  // namespace lw

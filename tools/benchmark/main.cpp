@@ -18,7 +18,8 @@ const lw::Section sections[] = {
     {"scaling", "cost against photons, triangles, lights and pixels", lw::measure_scaling},
     {"equal-time", "the path tracer at equal time and at equal error", lw::measure_equal_time},
     {"features", "what many lamps, glossy materials and textures add", lw::measure_features},
-    {"gloss", "lobes from photons or followed; rooms of gloss, metal and glass", lw::measure_gloss},
+    {"lobes", "a floor of several roughnesses, its lobe from photons or followed", lw::measure_lobes},
+    {"gloss", "rooms of gloss, metal and glass", lw::measure_gloss},
     {"bake", "seconds of the bake's phases, photon tracing against raw rays", lw::measure_bake},
     {"cie171", "analytic cases of CIE 171:2006: measured illuminance beside the formula", lw::measure_cie171},
 };

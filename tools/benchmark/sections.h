@@ -29,6 +29,7 @@ std::vector<Table> measure_modes(const Bench& bench);
 std::vector<Table> measure_scaling(const Bench& bench);
 std::vector<Table> measure_equal_time(const Bench& bench);
 std::vector<Table> measure_features(const Bench& bench);
+std::vector<Table> measure_lobes(const Bench& bench);
 std::vector<Table> measure_gloss(const Bench& bench);
 std::vector<Table> measure_bake(const Bench& bench);
 std::vector<Table> measure_cie171(const Bench& bench);
