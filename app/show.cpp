@@ -59,8 +59,9 @@ void Show::frame(const BakingState& baking) {
     seconds_ = float(now - last_);
     const float seconds = idle ? std::min(seconds_, 0.05f) : seconds_;  // a step after a rest is no leap
     last_ = now;
-    take_input(events, seconds);
     const std::optional<OpenFrame> open = presenter_.begin();
+    if (open) begin_panels();  // before input is taken: they tell what is theirs of it
+    take_input(events, seconds);
     if (!open) return;
     present(*open, baking, now);
     session_.statistics.frame_ms += 0.1 * ((Window::now() - shown_) * 1000 - session_.statistics.frame_ms);
@@ -90,8 +91,13 @@ void Show::measure() {
     measured_rotation_ = camera.rotation;
 }
 
-void Show::draw_panels(const BakingState& baking, double now) {
+void Show::begin_panels() {
+    if (generation_ != presenter_.generation()) overlay_.attach(presenter_.swapchain());
+    generation_ = presenter_.generation();
     overlay_.begin(!window_.is_captured());
+}
+
+void Show::draw_panels(const BakingState& baking, double now) {
     if (stage_) {
         draw_legend(session_);
         draw_split(session_);
@@ -107,8 +113,6 @@ void Show::draw_panels(const BakingState& baking, double now) {
 }
 
 void Show::present(const OpenFrame& open, const BakingState& baking, double now) {
-    if (generation_ != presenter_.generation()) overlay_.attach(presenter_.swapchain());
-    generation_ = presenter_.generation();
     if (stage_) follow_picture(open.slot);
     draw_panels(baking, now);
     if (stage_) record_stage(open);

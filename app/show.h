@@ -29,6 +29,7 @@ class Show {
   private:
     void take_input(const Events& events, float seconds);
     void measure();
+    void begin_panels();
     void draw_panels(const BakingState& baking, double now);
     void present(const OpenFrame& open, const BakingState& baking, double now);
     void follow_picture(uint slot);
