@@ -40,17 +40,18 @@ uint seed_at_end(uint seed, Following following) LW_MEMBER {
 /// For the facet of the surface before which `surface` others were met: stratified over the paths at the first one, random
 /// at the others, as the same sequence at two of them would pair their facets.
 vec2 lobe_numbers(PathNumbers numbers, uint surface) LW_MEMBER {
-    uint random = hash_uint(numbers.seed + 0x9e3779b9u * surface + (surface > 0u ? numbers.random : 0u));
-    if (surface > 0u) return vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
+    bool stratified = surface == 0u;
+    uint random = hash_uint(numbers.seed + 0x9e3779b9u * surface + (stratified ? 0u : numbers.random));
     vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
-    return fract(start + numbers.shift + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
+    return !stratified ? start : fract(start + numbers.shift + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
 }
 
 /// For the way on from a surface, in [0, 1): stratified at the first two.
 float choice_number(PathNumbers numbers, uint surface) LW_MEMBER {
-    uint random = hash_uint((numbers.seed ^ (0x85ebca6bu * (surface + 1u))) + (surface > 1u ? numbers.random : 0u));
+    bool stratified = surface <= 1u;
+    uint random = hash_uint((numbers.seed ^ (0x85ebca6bu * (surface + 1u))) + (stratified ? 0u : numbers.random));
     float start = float(random >> 8) / 16777216.0f;
-    if (surface > 1u) return start;
+    if (!stratified) return start;
     start += numbers.shift.x + 0.25f * numbers.shift.y;
     return min(fract(start + float(numbers.index & 0xffffu) * 0.618033989f), 0.99999994f);
 }
