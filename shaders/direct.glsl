@@ -164,20 +164,40 @@ Sight sight_of(uint bits, uint mask, vec2 f, Surface s) LW_MEMBER {
     return sight;
 }
 
+/// Which points of mesh lamps are looked at: elements of the R2 sequence (Roberts 2018), shifted by `seed` (Cranley & Patterson
+/// 1976). Another round goes on where the one before it ended.
+struct LampPoints {
+    uint seed;
+    uint round;
+};
+
+LampPoints first_points(uint seed) LW_MEMBER {
+    LampPoints points;
+    points.seed = seed;
+    points.round = 0u;
+    return points;
+}
+
+/// Element `element` of the sequence for a lamp, in [0, 1) x [0, 1); fractions of 2^32, exact however many there are.
+vec2 lamp_point(LampPoints points, uint lamp, uint element) LW_MEMBER {
+    uint shift = hash_uint(points.seed + hash_uint(lamp));
+    uint x = (shift << 16) + element * 3242174889u;
+    uint y = (shift & 0xffff0000u) + element * 2447445414u;
+    return vec2(float(x >> 8), float(y >> 8)) / 16777216.0f;
+}
+
 /// Adds the light of lamp `i`, as much as arrives.
-void add_lamp(uint i, Sight sight, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+void add_lamp(uint i, Sight sight, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LampPoints points,
               LW_INOUT(Gathered) sum) LW_MEMBER {
     Light lamp = light_at(i);
     bool mesh = lamp.type == light_mesh;
     bool beside_rays = leaves_lobe_out(s) && mesh;  // of its lobe, rays see the other part
     vec3 weight = light_weight(i) * sight.passed;
-    uint random = hash_uint(seed + hash_uint(i));
-    vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
     uint samples = mesh ? max(shadow_rays, 1u) : 1u;
     for (uint j = 0u; j < samples; ++j) {
         LightSample light = sample_punctual(lamp, s.position);
         if (has_mesh_lamps && mesh)
-            light = sample_mesh(lamp, s.position, fract(start + float(j) * vec2(0.754877666f, 0.569840291f)));
+            light = sample_mesh(lamp, s.position, lamp_point(points, i, points.round * samples + j));
         float cos_geometric = dot(n_geometric, light.to_light);
         vec3 incoming = weight * light.irradiance / float(samples);
         if (shows_points_behind(s) && !mesh && cos_geometric < 0.0f)
@@ -228,9 +248,8 @@ Sight sight_in_word(MapPlace at, uint bits, uint shift, uint first_mask, Surface
     return sight_of((bits >> shift) & 255u, first_mask + bitCount(bits & 0x08080808u & ((1u << shift) - 1u)), at.f, s);
 }
 
-/// Adds the direct light of one pair of lamps at a place. `seed` shifts the points on mesh lamps (Cranley & Patterson
-/// 1976) of the R2 sequence (Roberts 2018).
-void add_direct(MapPlace at, uint pair, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, uint seed,
+/// Adds the direct light of one pair of lamps at a place.
+void add_direct(MapPlace at, uint pair, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LampPoints points,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
     uint word = cell_lamp_word(pair * lamps_per_pair);
     uint bits = lamp_bits(at, word);
@@ -238,6 +257,6 @@ void add_direct(MapPlace at, uint pair, Surface s, vec3 n_geometric, vec3 n_shad
     for (uint todo = lamps_to_add(bits, pair, s); todo != 0u; todo &= todo - 1u) {
         uint shift = uint(findLSB(todo));
         Sight sight = sight_in_word(at, bits, shift, first_mask, s);
-        add_lamp(word * cell_lamps_per_word + shift / 8u, sight, s, n_geometric, n_shading, to_view, seed, sum);
+        add_lamp(word * cell_lamps_per_word + shift / 8u, sight, s, n_geometric, n_shading, to_view, points, sum);
     }
 }

@@ -32,9 +32,10 @@ PathNumbers path_numbers(uvec2 pixel, Following following, uint sample_index) LW
     return numbers;
 }
 
-/// Seed of the points on mesh lamps at the end of a path.
-uint seed_at_end(uint seed, Following following) LW_MEMBER {
-    return hash_uint(seed + 0x9e3779b9u * (1u + following.branch + 2u * following.depth + 4u * following.path));
+/// The points on mesh lamps at the end of a path: apart for each, as one sequence for the facets and the lamps beyond would pair
+/// them.
+LampPoints points_at_end(uint seed, Following following) LW_MEMBER {
+    return first_points(hash_uint(seed + 0x9e3779b9u * (1u + following.branch + 2u * following.depth + 4u * following.path)));
 }
 
 /// For the facet of the surface before which `surface` others were met: stratified over the paths at the first one, random
@@ -339,7 +340,7 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
         Seen far = see_followed(at);
         Gathered shown = estimate_at(far);
         for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
-            add_rays(far, pair, seed_at_end(seed, following), shown);
+            add_rays(far, pair, points_at_end(seed, following), shown);
         light.radiance += at.weight * shown.radiance;
         if (depth == 0u && branch == branch_through && is_looked_through(seen)) light.irradiance += shown.irradiance;
         if ((at.flags & followed_goes_on) == 0u) return;
@@ -356,7 +357,7 @@ Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed, uvec2 pixe
     Seen seen = marked(see(triangle, barycentrics, eye));
     Gathered light = estimate_at(seen);
     light.radiance += own_radiance(seen.surface, seen.front);
-    for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair) add_rays(seen, pair, seed, light);
+    for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair) add_rays(seen, pair, first_points(seed), light);
     light.radiance *= shown_part(seen);
     if (is_looked_through(seen)) light.irradiance = vec3(0.0f);
     for (uint branch = 0u; has_followed && branch < branch_count; ++branch)

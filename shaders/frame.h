@@ -80,13 +80,17 @@ LW_CONST uint constant_has_shadow_masks = 25u;
 LW_CONST uint constant_looks_through = 26u;  // glass and blends are surfaces of the view, what is behind them is followed
 LW_CONST uint constant_followed_roughness = 27u;  // bits of a float: lobes of smoother surfaces are followed
 LW_CONST uint constant_of_followed = 28u;  // photons and rays at the ends of followed paths
-LW_CONST uint constant_count = 29u;
+LW_CONST uint constant_first_cut = 29u;  // first of the cuts among the grids, no_map without any
+LW_CONST uint constant_first_caustic_map = 30u;  // grids from here on are of caustics
+LW_CONST uint constant_first_caustic_cut = 31u;
+LW_CONST uint constant_count = 32u;
 
 /// The dispatches of the gather: photons at all pixels, then rays at those that need any; where view paths go on, a dispatch
 /// that follows them, and photons and rays at their ends.
 LW_CONST uint stage_photons = 0u;
 LW_CONST uint stage_rays = 1u;
 LW_CONST uint stage_follow = 2u;
+LW_CONST uint stage_sizes = 3u;  // one group: how many groups each list takes
 LW_CONST uint gather_group_side = 8u;  // pixels
 
 /// The arguments of the dispatch for rays to a pair of lamps; its pixels are listed from pair * pixels of the picture on.

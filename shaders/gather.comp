@@ -87,6 +87,13 @@ SurfaceGrid grid_at(uint map) {
     return grid;
 }
 
+/// Maps come before their cuts.
+bool is_cut(uint map) {
+    if (map == no_map) return false;
+    bool of_caustics = first_caustic_cut != no_map && map >= first_caustic_cut;
+    return of_caustics || (first_cut != no_map && map >= first_cut && map < first_caustic_map);
+}
+
 BvhNode bvh_node_at(uint i) {
     uvec4 low = texelFetch(bvh_nodes, int(2u * i));
     uvec4 high = texelFetch(bvh_nodes, int(2u * i + 1u));
@@ -134,7 +141,6 @@ Light light_at(uint i) { return lights[i]; }
 
 void list_pixel(uint pixel, uint list) {
     uint place = atomicAdd(ray_lists[list].count, 1u);
-    if (place % (gather_group_side * gather_group_side) == 0u) atomicAdd(ray_lists[list].groups_x, 1u);
     listed_pixels[list * frame.width * frame.height + place] = pixel;
 }
 
@@ -205,9 +211,9 @@ void gather_followed(uint pixel) {
     Seen seen = see_followed(at);
     Gathered light = no_light();
     Following following = unpack_following(frame.following);
-    uint seed = seed_at_end(hash_uint(pixel + hash_uint(frame.sample_index)), following);
+    LampPoints points = points_at_end(hash_uint(pixel + hash_uint(frame.sample_index)), following);
     if (stage == stage_rays) {
-        add_rays(seen, frame.ray_pair, seed, light);
+        add_rays(seen, frame.ray_pair, points, light);
     } else {
         light = estimate_at(seen);
         for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
@@ -220,9 +226,10 @@ void gather_followed(uint pixel) {
 /// Photons or rays at what a pixel sees; lists the pixels from which paths go on.
 Gathered gather_seen(uint pixel, Seen seen) {
     Gathered light = no_light();
-    uint seed = hash_uint(pixel + hash_uint(frame.sample_index));
     if (stage == stage_rays) {
-        add_rays(seen, frame.ray_pair, seed, light);
+        LampPoints points = first_points(hash_uint(pixel));
+        points.round = frame.sample_index;
+        add_rays(seen, frame.ray_pair, points, light);
     } else {
         light = estimate_at(seen);
         light.radiance += own_radiance(seen.surface, seen.front);
@@ -236,7 +243,18 @@ Gathered gather_seen(uint pixel, Seen seen) {
     return light;
 }
 
+/// Sizes the dispatches of all lists by their counts: a second atomic per listed pixel costs more.
+void size_lists() {
+    const uint group = gather_group_side * gather_group_side;
+    for (uint list = gl_LocalInvocationIndex; list < uint(ray_lists.length()); list += group)
+        ray_lists[list].groups_x = (ray_lists[list].count + group - 1u) / group;
+}
+
 void main() {
+    if (stage == stage_sizes) {
+        size_lists();
+        return;
+    }
     uint pixel = pixel_to_shade();
     if (pixel >= frame.width * frame.height) return;
     if (has_followed && stage == stage_follow) {

@@ -1,7 +1,8 @@
 // Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
-// The including scope provides the functions grid_at, cell_start, photon_place, photon_flux, photon_direction,
-// light_weight, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode, neighbours, heap_size, max_radius,
-// inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage, has_followed. Needs photon_map.h and bsdf.glsl.
+// The including scope provides the functions grid_at, is_cut (false for no_map), cell_start, photon_place, photon_flux,
+// photon_direction, light_weight, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode, neighbours,
+// heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage, has_followed. Needs
+// photon_map.h and bsdf.glsl.
 
 Gathered no_light() LW_MEMBER {
     Gathered nothing;
@@ -220,22 +221,14 @@ struct MapPlace {
 
 /// The map of a point of a surface whose map may be cut.
 uint map_at(uint map, vec3 position) LW_MEMBER {
-    while (map != no_map) {
-        SurfaceGrid grid = grid_at(map);
-        if (grid.columns > 0u) break;
-        map = behind_cut(grid, position);
-    }
+    while (is_cut(map)) map = behind_cut(grid_at(map), position);
     return map;
 }
 
 MapPlace place_on(uint map, vec3 position) LW_MEMBER {
     MapPlace at;
-    at.map = map;
-    at.grid = grid_at(map == no_map ? 0u : map);  // anything, but there
-    if (map != no_map && at.grid.columns == 0u) {
-        at.map = map_at(map, position);
-        at.grid = grid_at(at.map == no_map ? 0u : at.map);
-    }
+    at.map = map_at(map, position);
+    at.grid = grid_at(at.map == no_map ? 0u : at.map);  // anything, but there
     at.local = position_in_grid(at.grid, position);
     at.cell = cell_node(at.grid.lattice, at.local, at.f);
     return at;

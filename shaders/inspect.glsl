@@ -60,7 +60,7 @@ Inspected inspect(Seen seen, float dot_reach, uint seed) LW_MEMBER {
     float coverage = has_coverage ? coverage_at(seen.at, radius) : 1.0f;
     Gathered direct = no_light();
     for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
-        add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_geometric, seen.to_eye, seed, direct);
+        add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_geometric, seen.to_eye, first_points(seed), direct);
     float total = sum / coverage + dot(direct.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
     result.bandwidth = radius;
     result.relative_error = total > 0.0f ? sqrt(squares) / coverage / total : 0.0f;

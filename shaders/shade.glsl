@@ -48,6 +48,6 @@ bool needs_rays(Seen seen, uint pair) LW_MEMBER {
 }
 
 /// Adds the lamps of one pair.
-void add_rays(Seen seen, uint pair, uint seed, LW_INOUT(Gathered) light) LW_MEMBER {
-    add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, seed, light);
+void add_rays(Seen seen, uint pair, LampPoints points, LW_INOUT(Gathered) light) LW_MEMBER {
+    add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, points, light);
 }

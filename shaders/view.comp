@@ -13,8 +13,9 @@ layout(constant_id = constant_has_lines) const bool has_lines = true;
 layout(constant_id = constant_has_split) const bool has_split = true;
 layout(constant_id = constant_is_scaled) const bool is_scaled = true;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
-layout(set = 0, binding = binding_view_light, scalar) readonly buffer Light { vec4 light[]; };
-layout(set = 0, binding = binding_view_other, scalar) readonly buffer Other { vec4 other[]; };
+layout(constant_id = constant_is_glance) const bool is_glance = false;
+layout(set = 0, binding = binding_view_light) uniform textureBuffer light;
+layout(set = 0, binding = binding_view_other) uniform textureBuffer other;
 layout(set = 0, binding = binding_view_visibility) uniform utexture2D visibility;
 layout(set = 0, binding = binding_view_screen, scalar) writeonly buffer Codes { uint codes[]; };
 layout(set = 0, binding = binding_view_glance, scalar) writeonly buffer Glances { Glance glances[]; };
@@ -26,6 +27,10 @@ uint pixel_at(ivec2 at) {
     return uint(p.y) * push.picture.x + uint(p.x);
 }
 
+vec4 light_of(uint pixel, uint side) {
+    return side == 0u ? texelFetch(light, int(pixel)) : texelFetch(other, int(pixel));
+}
+
 /// A (side 0) or B (side 1) between the four pixels around `at`, in pixels of the picture.
 vec4 light_between(vec2 at, uint side) {
     vec2 corner = at - 0.5f;
@@ -35,9 +40,7 @@ vec4 light_between(vec2 at, uint side) {
     for (int y = 0; y < 2; ++y) {
         uint p = pixel_at(base + ivec2(0, y));
         uint q = pixel_at(base + ivec2(1, y));
-        vec4 l = side == 0u ? light[p] : other[p];
-        vec4 r = side == 0u ? light[q] : other[q];
-        rows[y] = mix(l, r, f.x);
+        rows[y] = mix(light_of(p, side), light_of(q, side), f.x);
     }
     return mix(rows[0], rows[1], f.y) * (side == 0u ? push.scale_light : push.scale_other);
 }
@@ -45,7 +48,7 @@ vec4 light_between(vec2 at, uint side) {
 vec4 light_at_screen(vec2 at, uint side) {
     if (is_scaled) return light_between(at * vec2(push.picture) / vec2(push.screen), side);
     uint p = pixel_at(ivec2(at));
-    return side == 0u ? light[p] * push.scale_light : other[p] * push.scale_other;
+    return light_of(p, side) * (side == 0u ? push.scale_light : push.scale_other);
 }
 
 ivec2 nearest_pixel(vec2 at) { return is_scaled ? ivec2(at * vec2(push.picture) / vec2(push.screen)) : ivec2(at); }
@@ -53,7 +56,7 @@ ivec2 nearest_pixel(vec2 at) { return is_scaled ? ivec2(at * vec2(push.picture) 
 /// What the view shows in false colours, in its unit.
 float value_at(vec2 at, bool right_side) {
     if (is_inspection(shown_view)) {
-        vec4 inspected = other[pixel_at(nearest_pixel(at))];
+        vec4 inspected = texelFetch(other, int(pixel_at(nearest_pixel(at))));
         if (shown_view == view_bandwidth) return 100.0f * inspected.x;
         if (shown_view == view_error) return 100.0f * inspected.z;
         return shown_view == view_photons ? inspected.w : inspected.y;
@@ -102,11 +105,14 @@ vec3 color_at(vec2 at, bool right_side) {
     return has_lines && is_on_line(at, right_side) ? vec3(0.02f) : color;
 }
 
-/// Writes the value of the one pixel that stands for its cell of the glance.
-void give_glance(uvec2 xy, vec2 at, bool right_side) {
+/// The pixel that stands for a cell of the glance; none beyond it or in a screen of fewer pixels.
+uvec2 pixel_of_glance(uvec2 cell) {
     uvec2 cells = uvec2(glance_columns, glance_rows);
-    uvec2 cell = xy * cells / push.screen;
-    if (xy != (2u * cell + 1u) * push.screen / (2u * cells)) return;
+    uvec2 xy = (2u * cell + 1u) * push.screen / (2u * cells);
+    return cell.x < cells.x && cell.y < cells.y && xy * cells / push.screen == cell ? xy : push.screen;
+}
+
+void give_glance(uvec2 cell, vec2 at, bool right_side) {
     Glance g;
     vec4 shown = light_at_screen(at, right_side ? 1u : 0u);
     g.luminance = luminance(shown.xyz);
@@ -117,14 +123,17 @@ void give_glance(uvec2 xy, vec2 at, bool right_side) {
 }
 
 void main() {
-    uvec2 xy = gl_GlobalInvocationID.xy;
+    uvec2 xy = is_glance ? pixel_of_glance(gl_GlobalInvocationID.xy) : gl_GlobalInvocationID.xy;
     if (xy.x >= push.screen.x || xy.y >= push.screen.y) return;
     vec2 at = vec2(xy) + 0.5f;
     float edge = push.split * float(push.screen.x);
     bool right_side = has_split && at.x > edge;
+    if (is_glance) {
+        give_glance(gl_GlobalInvocationID.xy, at, right_side);
+        return;
+    }
     vec3 color = color_at(at, right_side);
     if (has_split && abs(at.x - edge) < 1.0f) color = vec3(1.0f);
     if (push.bgr != 0u) color = color.zyx;
     codes[xy.y * push.screen.x + xy.x] = packUnorm4x8(vec4(color, 1.0f));
-    give_glance(xy, at, right_side);
 }

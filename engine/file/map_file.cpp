@@ -112,6 +112,8 @@ void check_cuts(const std::filesystem::path& path, const PhotonMap& map, size_t 
     for (size_t i = last; i-- > first;) {
         const SurfaceGrid& cut = map.grids[i];
         if (cut.columns > 0) continue;
+        if (i + 1 < last && map.grids[i + 1].columns > 0)
+            refuse(path, "grid " + std::to_string(i + 1) + " comes after cuts");
         for (uint next : {cut.rows, cut.first_cell}) {
             if (next == no_map) continue;
             if (next < first || next >= last || (map.grids[next].columns == 0 && next <= i))

@@ -59,6 +59,7 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
     };
     const bool has_rays = settings.mode != gather_mode_inspect && constants[constant_has_direct];
     photons_ = make(stage_photons, false);
+    if (has_rays || constants[constant_has_followed]) sizes_ = make(stage_sizes, false);
     if (has_rays) rays_ = make(stage_rays, false);
     if (!constants[constant_has_followed]) return;
     follow_ = make(stage_follow, false);
@@ -76,6 +77,7 @@ void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Pi
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *photons_);
     const auto groups = [](uint pixels) { return (pixels + gather_group_side - 1) / gather_group_side; };
     commands.dispatch(groups(frame.width), groups(frame.height), 1);
+    if (sizes_) size_lists(commands);
     if (rays_) record_rays(commands, picture, *rays_);
     if (!follow_) return;
     const uint paths = unpack_following(frame.following).paths;
@@ -88,6 +90,12 @@ void GatherPass::empty_lists(vk::CommandBuffer commands, const Picture& picture,
     stage_barrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, Stage::eTransfer);
     commands.updateBuffer<RayPixels>(picture.ray_lists().handle(), 0, std::vector<RayPixels>(lists, {0, 1, 1, 0}));
     stage_barrier(commands, Stage::eTransfer, Stage::eComputeShader);
+}
+
+void GatherPass::size_lists(vk::CommandBuffer commands) const {
+    stage_barrier(commands, Stage::eComputeShader, Stage::eComputeShader);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *sizes_);
+    commands.dispatch(1, 1, 1);
 }
 
 void GatherPass::record_rays(vk::CommandBuffer commands, const Picture& picture, vk::Pipeline rays) const {
@@ -108,7 +116,9 @@ void GatherPass::record_path(vk::CommandBuffer commands, const Picture& picture,
         commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
         dispatch_list(commands, picture, list);
     }
-    if (followed_rays_) record_rays(commands, picture, *followed_rays_);
+    if (!followed_rays_) return;
+    size_lists(commands);
+    record_rays(commands, picture, *followed_rays_);
 }
 
 void GatherPass::dispatch_list(vk::CommandBuffer commands, const Picture& picture, uint list) const {

@@ -20,6 +20,7 @@ class GatherPass {
 
   private:
     void empty_lists(vk::CommandBuffer commands, const Picture& picture, uint lists) const;
+    void size_lists(vk::CommandBuffer commands) const;
     void record_rays(vk::CommandBuffer commands, const Picture& picture, vk::Pipeline rays) const;
     void record_path(vk::CommandBuffer commands, const Picture& picture, const Following& following) const;
     void dispatch_list(vk::CommandBuffer commands, const Picture& picture, uint list) const;
@@ -28,7 +29,8 @@ class GatherPass {
     const Picture* picture_;
     uint ray_pairs_;
     vk::UniquePipelineLayout layout_;
-    vk::UniquePipeline photons_, rays_;                             // the latter where the scene has lamps
+    vk::UniquePipeline photons_, rays_;  // the latter where the scene has lamps
+    vk::UniquePipeline sizes_;           // where pixels are listed
     vk::UniquePipeline follow_, followed_photons_, followed_rays_;  // where view paths go on
     std::array<bool, branch_count> has_branch_{};
 };

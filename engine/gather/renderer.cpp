@@ -15,11 +15,11 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Points of the R2 sequence around 0 (Roberts 2018), in pixels.
+/// Points around 0, in pixels: of the R3 sequence (Roberts 2018), not to keep step with the lobes' and lamps' R2.
 vec2 pixel_offset(uint index, uint count) {
     if (count == 1) return vec2(0);
-    const double x = 0.5 + double(index) * 0.7548776662466927;
-    const double y = 0.5 + double(index) * 0.5698402909980532;
+    const double x = 0.5 + double(index) * 0.8191725133961645;
+    const double y = 0.5 + double(index) * 0.6710436067037893;
     return vec2(float(x - std::floor(x) - 0.5), float(y - std::floor(y) - 0.5));
 }
 

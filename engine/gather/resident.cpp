@@ -153,6 +153,10 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     constants_[constant_looks_through] =
         can_follow && (constants_[constant_has_transmission] || any_material(scene, material_alpha_blend));
     constants_[constant_has_caustics] = map.caustic_grids > 0;
+    constants_[constant_first_caustic_map] = uint(map.grids.size()) - map.caustic_grids;
+    constants_[constant_first_cut] = map.first_cut(0, constants_[constant_first_caustic_map]);
+    constants_[constant_first_caustic_cut] =
+        map.first_cut(constants_[constant_first_caustic_map], uint(map.grids.size()));
     constants_[constant_has_smooth_caustics] = !map.smooth_caustics.empty();
     constants_[constant_has_shadow_masks] = !map.shadow_masks.empty();
     constants_[constant_has_mesh_lamps] = !scene.emitters.empty();

@@ -9,7 +9,8 @@ namespace {
 constexpr size_t glance_bytes = size_t(glance_columns) * glance_rows * sizeof(Glance);
 
 std::vector<Binding> view_bindings() {
-    return {Binding{binding_view_light}, Binding{binding_view_other},
+    return {Binding{binding_view_light, vk::DescriptorType::eUniformTexelBuffer},
+            Binding{binding_view_other, vk::DescriptorType::eUniformTexelBuffer},
             Binding{binding_view_visibility, vk::DescriptorType::eSampledImage}, Binding{binding_view_screen},
             Binding{binding_view_glance}};
 }
@@ -23,8 +24,8 @@ ViewPass::ViewPass(const Device& device, const Target& visibility, const Picture
                  Buffer(device, glance_bytes, "glance", Buffer::Place::host)},
       descriptors_(device, view_bindings()) {
     for (const Buffer& buffer : read_back_) std::fill_n(static_cast<char*>(buffer.mapped()), glance_bytes, char(0));
-    descriptors_.set_buffer(binding_view_light, a.radiance());
-    descriptors_.set_buffer(binding_view_other, b.radiance());
+    descriptors_.set_texels(binding_view_light, a.light());
+    descriptors_.set_texels(binding_view_other, b.light());
     descriptors_.set_target(binding_view_visibility, visibility);
     descriptors_.set_buffer(binding_view_screen, a.screen());
     descriptors_.set_buffer(binding_view_glance, glance_);
@@ -32,8 +33,8 @@ ViewPass::ViewPass(const Device& device, const Target& visibility, const Picture
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(ViewPush));
 }
 
-vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled) {
-    vk::UniquePipeline& pipeline = pipelines_[{kind, is_scaled}];
+vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled, bool is_glance) {
+    vk::UniquePipeline& pipeline = pipelines_[{kind, is_scaled, is_glance}];
     if (!pipeline) {
         std::array<uint, view_constant_count> constants{};
         constants[constant_view] = kind.view;
@@ -41,16 +42,21 @@ vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled) {
         constants[constant_has_lines] = kind.has_lines;
         constants[constant_has_split] = kind.has_split && !is_inspection(kind.view) && !is_signed_view(kind.view);
         constants[constant_is_scaled] = is_scaled;
+        constants[constant_is_glance] = is_glance;
         pipeline = make_compute_pipeline(*device_, *layout_, view_comp, constants);
     }
     return *pipeline;
 }
 
 void ViewPass::record(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_for(kind, push.screen != push.picture));
+    const bool is_scaled = push.screen != push.picture;
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, descriptors_.handle(), {});
     commands.pushConstants<ViewPush>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
-    commands.dispatch((push.screen.x + 7) / 8, (push.screen.y + 7) / 8, 1);
+    for (const bool is_glance : {false, true}) {
+        const uvec2 invocations = is_glance ? uvec2(glance_columns, glance_rows) : push.screen;
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_for(kind, is_scaled, is_glance));
+        commands.dispatch((invocations.x + 7) / 8, (invocations.y + 7) / 8, 1);
+    }
     stage_barrier(commands, vk::PipelineStageFlagBits2::eComputeShader, vk::PipelineStageFlagBits2::eTransfer);
     commands.copyBuffer(glance_.handle(), read_back_[slot].handle(), vk::BufferCopy(0, 0, glance_bytes));
 }

@@ -29,14 +29,14 @@ class ViewPass {
     std::vector<Glance> glance(uint slot) const;
 
   private:
-    vk::Pipeline pipeline_for(const ViewKind& kind, bool is_scaled);
+    vk::Pipeline pipeline_for(const ViewKind& kind, bool is_scaled, bool is_glance);
 
     const Device* device_;
     Buffer glance_;
     std::array<Buffer, slots> read_back_;
     DescriptorSet descriptors_;
     vk::UniquePipelineLayout layout_;
-    std::map<std::pair<ViewKind, bool>, vk::UniquePipeline> pipelines_;
+    std::map<std::tuple<ViewKind, bool, bool>, vk::UniquePipeline> pipelines_;  // is_scaled, is_glance
 };
 
 }  // namespace lw

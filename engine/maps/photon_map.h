@@ -1,5 +1,6 @@
 // The photon maps of a scene as plain arrays, in the layout that the file and the GPU share (shaders/photon_map.h).
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -72,6 +73,12 @@ struct PhotonMap {
     }
     /// True when cells know more than their lamps, see cell_words().
     bool has_marks() const { return !smooth_caustics.empty() || !shadow_masks.empty(); }
+    /// The first cut among the grids [first, last), whose maps come before their cuts; no_map without any.
+    uint first_cut(uint first, uint last) const {
+        const auto is_cut = [](const SurfaceGrid& grid) { return grid.columns == 0; };
+        const auto cut = std::find_if(grids.begin() + first, grids.begin() + last, is_cut);
+        return cut == grids.begin() + last ? no_map : uint(cut - grids.begin());
+    }
     bool has_coverage() const { return !coverage.empty(); }
     bool has_visible_lamps() const { return !visible_lamps.empty(); }
 };

@@ -12,6 +12,7 @@ namespace {
 
 constexpr uint64_t paths_per_task = 4096;
 constexpr int most_bounces = 64;
+constexpr float roughest_caster = 0.35f;  // its lobe is some 15 degrees wide
 constexpr float least_alignment = 0.8f;  // cosine between the normals of a light's arrival and of the point it is for
 
 double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
@@ -43,7 +44,7 @@ class CausticPath {
             flux *= surfaces_.passed_by_medium(absorption_before(surfaces_, s, direction, medium), hit->distance);
             if (!direct) arrive(s, flux, direction, arrivals);
             const std::optional<Scatter> next = sample_bsdf(surfaces_, s, -direction, Carries::flux, rng);
-            if (!next || !next->specular) return;
+            if (!next || !(next->specular || casts_caustics(s))) return;
             flux *= next->weight;
             direct = direct && next->straight;
             direction = next->direction;
@@ -56,7 +57,7 @@ class CausticPath {
   private:
     void arrive(const Surface& s, vec3 flux, vec3 direction, std::vector<Caustics::Arrival>& arrivals) const {
         const vec3 ng = s.geometric_normal * (dot(s.geometric_normal, direction) > 0 ? -1.0f : 1.0f);
-        if (!surfaces_.is_purely_specular(s)) arrivals.push_back({s.position, flux, -direction, ng});
+        if (!casts_caustics(s)) arrivals.push_back({s.position, flux, -direction, ng});
     }
 
     const RayCaster& caster_;
@@ -79,10 +80,17 @@ std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, s
 
 }  // namespace
 
+bool casts_caustics(const Surface& s) {
+    return s.roughness < roughest_caster && (s.metallic > 0.999f || s.transmission > 0.999f) &&
+           (s.flags & material_unlit) == 0;
+}
+
 bool has_caustics(const Scene& scene, std::span<const vec3> weights) {
     const auto is_specular = [](const Material& m) {
-        const bool smooth = m.metallic_roughness_texture.texture >= 0 || m.roughness * m.roughness < smallest_alpha;
-        return smooth && (m.metallic > 0 || m.specular > 0 || m.transmission > 0);
+        const bool varies = m.metallic_roughness_texture.texture >= 0 || m.transmission_texture.texture >= 0;
+        const bool smooth = varies || m.roughness * m.roughness < smallest_alpha;
+        const bool casts = m.roughness < roughest_caster && (m.metallic > 0.999f || m.transmission > 0.999f);
+        return casts || (smooth && (m.metallic > 0 || m.specular > 0 || m.transmission > 0));
     };
     if (std::none_of(scene.materials.begin(), scene.materials.end(), is_specular)) return false;
     return std::any_of(weights.begin(), weights.end(), [](vec3 weight) { return luminance(weight) > 0; });
@@ -157,7 +165,7 @@ vec3 Caustics::irradiance(vec3 point, vec3 normal) const {
 
 vec3 Caustics::reflected(const SurfaceReader& reader, const Surface& s, vec3 n, vec3 ng, vec3 to_view) const {
     vec3 sum(0);
-    if (reader.is_purely_specular(s)) return sum;
+    if (casts_caustics(s)) return sum;
     const auto add = [&](const Arrival& a, float kernel) {
         const float tilt = std::abs(dot(n, a.from)) / std::max(std::abs(dot(ng, a.from)), 0.05f);
         sum += reader.eval_bsdf(s, n, to_view, a.from) * a.flux * (kernel * std::min(tilt, 2.0f));

@@ -61,7 +61,7 @@ vec3 PathTracer::direct(const Vertex& at, bool all_lamps, Rng& rng) const {
 vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, const Caustics* caustics, Rng& rng) const {
     vec3 sum(0), throughput(1), medium(0);
     float distance = 0;  // since the last vertex that light sampling covers
-    bool scattered = !first, by_mirror = false;  // has met a surface that shows caustics, and a mirror or glass after it
+    bool scattered = !first, by_mirror = false;  // has met a surface that shows caustics, and what casts them after it
     for (int depth = 0; depth < longest_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
         if (!hit) break;
@@ -78,7 +78,8 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, cons
             const float mis = pdf > 0 ? power_heuristic(pdf, emitters_.arrive_pdf(s, distance, direction)) : 1.0f;
             sum += throughput * emitted * mis;
         }
-        sum += throughput * direct(at, depth == 0, rng);
+        const bool casts = caustics && casts_caustics(s);
+        if (!(casts && scattered)) sum += throughput * direct(at, depth == 0, rng);
         if (caustics) sum += throughput * caustics->reflected(surfaces_, s, at.n, at.ng, at.to_view);
 
         const std::optional<Scatter> next = sample_bsdf(surfaces_, s, at.to_view, Carries::radiance, rng);
@@ -94,8 +95,8 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, cons
         origin = caster_.offset(s.position, dot(direction, at.ng) > 0 ? at.ng : -at.ng);
         // A sheet that is passed straight on is no vertex: light sampling at the last one reaches through it.
         if (next->straight) continue;
-        scattered = scattered || !next->specular;
-        by_mirror = next->specular;
+        by_mirror = next->specular || casts;
+        scattered = scattered || !by_mirror;
         pdf = next->specular ? 0.0f : next->pdf;
         distance = 0;
         // Light sampling at the next vertex covers one lamp in `count`; its pdf is only that of the choice of a point

@@ -190,6 +190,15 @@ TEST_F(MapFile, WithCutsRoundTripsAndIsRefusedWhenTheyLeadAstray) {
         save_photon_map(path, bad);
         EXPECT_THROW(load_photon_map(path, baked.scene), Error) << what;
     };
+    refused("before a map", [&](PhotonMap& m) {
+        std::swap(m.grids[cut - 1], m.grids[cut]);
+        const auto renumber = [&](uint& index) {
+            if (index == cut || index == cut - 1) index = uint(2 * cut - 1) - index;
+        };
+        for (uint& index : m.triangle_maps) renumber(index);
+        for (SurfaceGrid& g : m.grids)
+            if (g.columns == 0) renumber(g.rows), renumber(g.first_cell);
+    });
     refused("to itself", [&](PhotonMap& m) { m.grids[cut].rows = uint(cut); });
     refused("beyond the grids", [&](PhotonMap& m) { m.grids[cut].first_cell = uint(m.grids.size()); });
     refused("no number", [&](PhotonMap& m) { m.grids[cut].origin.x = NAN; });

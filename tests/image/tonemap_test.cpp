@@ -23,6 +23,8 @@ TEST(Tonemap, SrgbCodesMatchTheStandard) {
     EXPECT_NEAR(encode_srgb_value(0.0031308f), 12.92f * 0.0031308f, 1e-6f);
     EXPECT_NEAR(encode_srgb_value(0.0031309f), 12.92f * 0.0031309f, 1e-5f) << "the two pieces meet";
     EXPECT_NEAR(encode_srgb_value(0.21404114f), 0.5f, 1e-5f);
+    for (float v = 0.0031309f; v < 1; v += 0.0001f)
+        ASSERT_NEAR(encode_srgb_value(v), 1.055 * std::pow(double(v), 1 / 2.4) - 0.055, 3e-6) << v;
 }
 
 TEST(Tonemap, OneEvMoreIsHalfAsBright) {

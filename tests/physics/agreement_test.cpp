@@ -2,6 +2,7 @@
 // with the path tracer where kernels do not cross a border. Validation messages fail the test.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gather/renderer.h"
@@ -74,6 +75,33 @@ TEST(Agreement, ShaderEqualsCpuEstimateInTheCornellBox) {
     expect_same(baked, 0, 64, 64);
     expect_same(baked, 1, 64, 64);
     expect_same(baked, 2, 64, 64);
+}
+
+/// Views at rest go on with the points on lamps where the last one ended: sixteen views of four rays err like one view of 64,
+/// where independent ones would err half as much again.
+TEST(Agreement, ViewsAtRestCompleteEachOther) {
+    const Baked baked("cornell.gltf", 20000);
+    const Device device(DeviceSettings{"", true});
+    const Resident resident(device, baked.scene, baked.map, baked.bvh);
+    const auto lux = [&](uint views, uint rays) {
+        RenderSettings settings;
+        settings.gather = {gather_mode_smooth, 50, rays};
+        settings.samples = views;
+        Renderer renderer(device, resident, 48, 48);
+        return renderer.render(baked.scene.cameras[0], settings).image.find("illuminance")->values;
+    };
+    /// Median error of pixels that need rays, against the same views with far more.
+    const auto error = [&](uint views, uint rays) {
+        const std::vector<float> few = lux(views, rays), many = lux(views, 512 / views);
+        std::vector<float> errors;
+        for (size_t i = 0; i < few.size(); ++i)
+            if (few[i] != many[i]) errors.push_back(std::abs(few[i] - many[i]) / many[i]);
+        EXPECT_GT(errors.size(), few.size() / 20);
+        std::nth_element(errors.begin(), errors.begin() + long(errors.size() / 2), errors.end());
+        return errors[errors.size() / 2];
+    };
+    EXPECT_LT(error(16, 4), 1.25f * error(1, 64));
+    expect_no_messages(device);
 }
 
 TEST(Agreement, ShaderEqualsCpuEstimateUnderAPhotometricFile) {
