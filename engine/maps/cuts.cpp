@@ -14,10 +14,13 @@
 namespace lw {
 namespace {
 
-constexpr float least_wall = 1;      // radius: shorter things (legs, boards of furniture) cut nothing
-constexpr float tolerance = 0.002f;  // of the radius: segments as close to a line lie on it
-constexpr float least_piece = 0.1f;  // of the radius: a wall along the border of a patch cuts nothing off
-constexpr float steep = 0.7f;        // largest cosine between the normals of a wall and of what it stands on
+constexpr float least_wall = 1;           // radius: shorter things (legs, boards of furniture) cut nothing
+constexpr float tolerance = 0.002f;       // of the radius: segments as close to a line lie on it
+constexpr float least_piece = 0.1f;       // of the radius: a wall along the border of a patch cuts nothing off
+constexpr float round_tolerance = 0.02f;  // of the radius: how far a chord may be from a round wall
+constexpr float least_chord = 0.5f;       // radius
+constexpr float least_round_wall = 1;     // radius, along the wall
+constexpr float steep = 0.7f;             // largest cosine between the normals of a wall and of what it stands on
 constexpr size_t most_cuts = 255, most_tried = 512;
 constexpr int deepest_cut = most_cuts_deep;
 
@@ -33,7 +36,8 @@ struct Segment {
 struct WallLine {
     vec2 point, along;
     std::vector<vec2> stretches;
-    float length = 0;  // of the longest stretch
+    float length = 0;       // of the longest stretch
+    bool is_chord = false;  // of a round wall
 
     float height(vec2 p) const { return along.x * (p.y - point.y) - along.y * (p.x - point.x); }
 };
@@ -119,8 +123,8 @@ glm::ivec2 bin_of(const Segment& s, float radius) {
     return {int(std::round(angle * 28.6f)), int(std::round(clamp(offset / radius * 20, -1e6f, 1e6f)))};
 }
 
-/// Joins overlapping and touching stretches and keeps those that are long enough.
-void join_stretches(WallLine& line, float radius) {
+/// Joins overlapping and touching stretches and keeps those of at least `least` m.
+void join_stretches(WallLine& line, float radius, float least) {
     std::sort(line.stretches.begin(), line.stretches.end(), [](vec2 x, vec2 y) { return x.x < y.x; });
     std::vector<vec2> joined;
     for (vec2 s : line.stretches)
@@ -130,10 +134,83 @@ void join_stretches(WallLine& line, float radius) {
             joined.push_back(s);
     line.stretches.clear();
     for (vec2 s : joined)
-        if (s.y - s.x >= least_wall * radius) {
+        if (s.y - s.x >= least) {
             line.stretches.push_back(s);
             line.length = std::max(line.length, s.y - s.x);
         }
+}
+
+/// The chord of a round wall around the middle of a segment, halfway between the wall's points nearest and farthest.
+WallLine chord_of(std::span<const Segment> segments, const Segment& seed, float radius) {
+    WallLine line{0.5f * (seed.a + seed.b), normalize(seed.b - seed.a), {}};
+    line.is_chord = true;
+    std::vector<std::pair<vec2, vec2>> places;  // along the line and from it
+    for (const Segment& s : segments) {
+        const vec2 heights(line.height(s.a), line.height(s.b));
+        if (std::max(std::abs(heights.x), std::abs(heights.y)) > 2 * round_tolerance * radius) continue;
+        const float a = dot(s.a - line.point, line.along), b = dot(s.b - line.point, line.along);
+        line.stretches.emplace_back(std::min(a, b), std::max(a, b));
+        places.emplace_back(line.stretches.back(), heights);
+    }
+    join_stretches(line, radius, least_chord * radius);
+    std::erase_if(line.stretches, [](vec2 s) { return s.x > 0 || s.y < 0; });
+    line.length = line.stretches.empty() ? 0 : line.stretches[0].y - line.stretches[0].x;
+    float low = 0, high = 0;
+    for (const auto& [at, heights] : places)
+        if (line.length > 0 && at.x >= line.stretches[0].x && at.y <= line.stretches[0].y)
+            low = std::min({low, heights.x, heights.y}), high = std::max({high, heights.x, heights.y});
+    line.point += vec2(-line.along.y, line.along.x) * (0.5f * (low + high));
+    return line;
+}
+
+/// Whether a chord's wall goes on at one of its ends, bent by less than 45 degrees, in another chord.
+bool goes_on(const WallLine& x, const WallLine& y, float radius) {
+    if (std::abs(dot(x.along, y.along)) < 0.7f) return false;
+    const auto distance_to = [&](vec2 p) {
+        const float at = clamp(dot(p - y.point, y.along), y.stretches[0].x, y.stretches[0].y);
+        return length(p - y.point - y.along * at);
+    };
+    return std::min(distance_to(x.point + x.along * x.stretches[0].x),
+                    distance_to(x.point + x.along * x.stretches[0].y)) < 4 * round_tolerance * radius;
+}
+
+/// Adds chords for the segments that no straight line took, where they make up a long enough wall, each beside the
+/// one before: then what one chord cuts off lies beside what the next does.
+void add_chords(std::span<const Segment> segments, std::vector<char>& taken, float radius,
+                std::vector<WallLine>& lines) {
+    std::vector<WallLine> chords;
+    size_t tried = 0;
+    for (size_t i = 0; i < segments.size() && tried < most_tried && lines.size() + chords.size() < most_cuts; ++i) {
+        if (taken[i] || !(length(segments[i].b - segments[i].a) > 0)) continue;
+        ++tried;
+        WallLine line = chord_of(segments, segments[i], radius);
+        if (!(line.length > 0)) continue;
+        const vec2 stretch = line.stretches[0];
+        for (size_t j = i; j < segments.size(); ++j) {
+            const vec2 to_middle = 0.5f * (segments[j].a + segments[j].b) - line.point;
+            const float at = dot(to_middle, line.along);
+            taken[j] |= std::abs(line.height(segments[j].a)) <= round_tolerance * radius &&
+                        std::abs(line.height(segments[j].b)) <= round_tolerance * radius && at >= stretch.x &&
+                        at <= stretch.y;
+        }
+        chords.push_back(std::move(line));
+    }
+    std::vector<float> walls;
+    for (WallLine& chord : chords) {
+        walls.push_back(0);
+        for (const WallLine& other : chords)  // itself too
+            walls.back() += goes_on(chord, other, radius) ? other.length : 0;
+    }
+    for (size_t i = chords.size(); i-- > 0;)
+        if (walls[i] < least_round_wall * radius) chords.erase(chords.begin() + ptrdiff_t(i));
+    for (size_t i = 0; i < chords.size(); ++i) {
+        const vec2 end = i ? chords[i - 1].point : chords[0].point;
+        std::iter_swap(chords.begin() + ptrdiff_t(i),
+                       std::min_element(chords.begin() + ptrdiff_t(i), chords.end(), [&](const auto& x, const auto& y) {
+                           return length(x.point - end) < length(y.point - end);
+                       }));
+    }
+    lines.insert(lines.end(), chords.begin(), chords.end());
 }
 
 /// The lines on which long enough walls stand, from the segments of one patch.
@@ -154,7 +231,8 @@ std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius
         return sum;
     };
     std::vector<WallLine> lines;
-    std::vector<char> taken(segments.size(), 0);
+    std::vector<char> taken(segments.size(), 0), straight = taken;
+    std::vector<size_t> members;
     size_t tried = 0;
     for (size_t i = 0; i < segments.size() && tried < most_tried && lines.size() < most_cuts; ++i) {
         const vec2 along = segments[i].b - segments[i].a;
@@ -162,18 +240,23 @@ std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius
         if (taken[i] || !(size > 0) || length_around(bins[i]) < least_wall * radius) continue;
         ++tried;
         WallLine line{segments[i].a, along / size, {}};
+        members.clear();
         for (size_t j = i; j < segments.size(); ++j) {
             if (taken[j] || std::abs(line.height(segments[j].a)) > tolerance * radius ||
                 std::abs(line.height(segments[j].b)) > tolerance * radius)
                 continue;
             taken[j] = 1;
+            members.push_back(j);
             const float a = dot(segments[j].a - line.point, line.along),
                         b = dot(segments[j].b - line.point, line.along);
             line.stretches.emplace_back(std::min(a, b), std::max(a, b));
         }
-        join_stretches(line, radius);
-        if (line.length > 0) lines.push_back(std::move(line));
+        join_stretches(line, radius, least_wall * radius);
+        if (!(line.length > 0)) continue;
+        for (size_t j : members) straight[j] = 1;
+        lines.push_back(std::move(line));
     }
+    add_chords(segments, straight, radius, lines);
     return lines;
 }
 
@@ -234,7 +317,7 @@ float length_inside(const Outline& outline, const WallLine& line, float radius) 
         const float s = dot(p + (q - p) * (hp / (hp - hq)) - line.point, line.along);
         first = std::min(first, s), last = std::max(last, s);
     }
-    if (std::min(-low, high) < least_piece * radius) return 0;
+    if (std::min(-low, high) < (line.is_chord ? round_tolerance : least_piece) * radius) return 0;
     float inside = 0;
     for (vec2 s : line.stretches) inside += std::max(0.0f, std::min(s.y, last) - std::max(s.x, first));
     return inside;
@@ -270,8 +353,10 @@ class Cutter {
     uint divide(const Outline& outline, int depth) {
         const WallLine* best = nullptr;
         float most = 0.02f * radius_;
-        for (const WallLine& line : *lines_)
+        for (const WallLine& line : *lines_) {
+            if (line.is_chord && best) break;  // chords are the last, in the order in which they cut
             if (const float inside = length_inside(outline, line, radius_); inside > most) best = &line, most = inside;
+        }
         if (!best || left_ == 0 || depth == deepest_cut) return add_piece(outline, depth > 0);
         --left_;
         const auto index = uint(patches_.cuts.size());
