@@ -286,6 +286,15 @@ TEST(GltfErrors, WhatOnlyOneCheckRefusesIsNamed) {
         const int places = g.accessor(std::vector<float>{0, 0, 0, nan, 0, 0}, "VEC3", 5126);
         g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
     });
+    refused("EXT_mesh_gpu_instancing: TRANSLATION has the wrong size", [](GltfText& g) {
+        const int places = g.accessor(std::vector<float>{0, 0}, "VEC2", 5126);
+        g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
+    });
+    refused("EXT_mesh_gpu_instancing: SCALE has the wrong size", [](GltfText& g) {
+        const int places = g.accessor(std::vector<float>(6, 0), "VEC3", 5126);
+        const int sizes = g.accessor(std::vector<float>(9, 1), "VEC3", 5126);
+        g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places}, {"SCALE", sizes}};
+    });
     refused("there is no sampler 9", [&](GltfText& g) {
         g.doc["images"] = {{{"uri", "data:image/png;base64," + std::string(white_png)}}};
         g.doc["textures"] = {{{"source", 0}, {"sampler", 9}}};
