@@ -1,181 +1,21 @@
 #include "maps/cuts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 #include <tuple>
 #include <unordered_map>
 
-#include "base/parallel.h"
 #include "maps/photon_map.h"
-#include "trace/box_search.h"
+#include "maps/wall_lines.h"
 
 namespace lw {
 namespace {
 
-constexpr float least_wall = 1;      // radius: shorter things (legs, boards of furniture) cut nothing
-constexpr float tolerance = 0.002f;  // of the radius: segments as close to a line lie on it
 constexpr float least_piece = 0.1f;  // of the radius: a wall along the border of a patch cuts nothing off
-constexpr float steep = 0.7f;        // largest cosine between the normals of a wall and of what it stands on
-constexpr size_t most_cuts = 255, most_tried = 512;
+constexpr size_t most_cuts = 255;
 constexpr int deepest_cut = most_cuts_deep;
 
 using Outline = std::vector<vec2>;  // convex, counter-clockwise
-
-struct Segment {
-    uint patch;
-    uint triangle;
-    vec2 a, b;  // in the frame of the patch
-};
-
-/// A line with the stretches of it where walls stand, in metres from `point` along `along`.
-struct WallLine {
-    vec2 point, along;
-    std::vector<vec2> stretches;
-    float length = 0;  // of the longest stretch
-
-    float height(vec2 p) const { return along.x * (p.y - point.y) - along.y * (p.x - point.x); }
-};
-
-/// Whether walls may stand on a patch: it is plane, and no small piece of furniture.
-bool may_be_cut(const PatchShape& shape, float radius) {
-    const vec3 size = shape.high - shape.low;
-    return shape.cos_spread > 0.999f && size.z <= height_of_cuts(radius) &&
-           std::max(size.x, size.y) > least_wall * radius;
-}
-
-/// Where a triangle that crosses the plane a little above the patch meets the patch, clipped to it and its
-/// surroundings.
-bool crossing(const PatchShape& shape, const std::array<vec3, 3>& corners, float radius, Segment& segment) {
-    std::array<vec3, 3> local;
-    const float plane = shape.high.z + height_of_cuts(radius);
-    for (size_t c = 0; c < 3; ++c) local[c] = shape.to_local(corners[c]) - vec3(0, 0, plane);
-    std::array<vec2, 3> ends;
-    size_t found = 0;
-    for (size_t c = 0; c < 3; ++c) {
-        const vec3 p = local[c], q = local[(c + 1) % 3];
-        if ((p.z < 0) != (q.z < 0)) ends[found++] = vec2(p) + (vec2(q) - vec2(p)) * (p.z / (p.z - q.z));
-    }
-    if (found != 2) return false;
-    float first = 0, last = 1;
-    const vec2 d = ends[1] - ends[0];
-    for (int axis = 0; axis < 2; ++axis) {
-        const float low = shape.low[axis] - radius - ends[0][axis], high = shape.high[axis] + radius - ends[0][axis];
-        if (d[axis] == 0) {
-            if (low > 0 || high < 0) return false;
-            continue;
-        }
-        first = std::max(first, std::min(low / d[axis], high / d[axis]));
-        last = std::min(last, std::max(low / d[axis], high / d[axis]));
-    }
-    if (!(first < last)) return false;
-    const vec3 n = cross(local[1] - local[0], local[2] - local[0]);  // of the wall: it may lean
-    const vec2 foot = vec2(n) * (n.z * height_of_cuts(radius) / std::max(n.x * n.x + n.y * n.y, 1e-30f));
-    segment.a = ends[0] + d * first + foot, segment.b = ends[0] + d * last + foot;
-    return true;
-}
-
-/// The segments along which triangles stand on patches, sorted by patch, the longest first.
-std::vector<Segment> find_segments(const Scene& scene, float radius, const std::vector<PatchShape>& shapes) {
-    std::vector<Box> slabs;
-    for (const PatchShape& s : shapes) {
-        const bool wanted = may_be_cut(s, radius);
-        const vec3 reach = (abs(s.u_axis) + abs(s.v_axis)) * radius + abs(s.normal) * (2 * height_of_cuts(radius));
-        slabs.push_back(wanted ? Box{s.box_low - reach, s.box_high + reach} : Box{vec3(1e30f), vec3(-1e30f)});
-    }
-    const BoxSearch search(std::move(slabs));
-    constexpr size_t chunk = 4096;
-    std::vector<std::vector<Segment>> parts((scene.triangles.size() + chunk - 1) / chunk);
-    parallel_for(parts.size(), [&](size_t k) {
-        for (size_t t = k * chunk; t < std::min(scene.triangles.size(), (k + 1) * chunk); ++t) {
-            std::array<vec3, 3> p;
-            for (int c = 0; c < 3; ++c) p[size_t(c)] = scene.positions[scene.triangles[t][c]];
-            const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
-            const float size = length(product);
-            search.overlapping({min(p[0], min(p[1], p[2])), max(p[0], max(p[1], p[2]))}, [&](uint patch) {
-                Segment segment{patch, uint(t), {}, {}};
-                if (std::abs(dot(product, shapes[patch].normal)) < steep * size &&
-                    crossing(shapes[patch], p, radius, segment))
-                    parts[k].push_back(segment);
-            });
-        }
-    });
-    std::vector<Segment> segments;
-    for (const auto& part : parts) segments.insert(segments.end(), part.begin(), part.end());
-    parallel_sort(segments.begin(), segments.end(), [](const Segment& x, const Segment& y) {
-        const float length_x = dot(x.b - x.a, x.b - x.a), length_y = dot(y.b - y.a, y.b - y.a);
-        return std::tuple(x.patch, -length_x, x.triangle) < std::tuple(y.patch, -length_y, y.triangle);
-    });
-    return segments;
-}
-
-/// Which lines of like direction and place lie a segment's: cells of 2 degrees and a twentieth of the radius.
-glm::ivec2 bin_of(const Segment& s, float radius) {
-    vec2 along = s.b - s.a;
-    if (along.x < 0 || (along.x == 0 && along.y < 0)) along = -along;
-    const float angle = std::atan2(along.y, along.x), size = std::max(length(along), 1e-20f);
-    const float offset = (along.x * s.a.y - along.y * s.a.x) / size;
-    return {int(std::round(angle * 28.6f)), int(std::round(clamp(offset / radius * 20, -1e6f, 1e6f)))};
-}
-
-/// Joins overlapping and touching stretches and keeps those that are long enough.
-void join_stretches(WallLine& line, float radius) {
-    std::sort(line.stretches.begin(), line.stretches.end(), [](vec2 x, vec2 y) { return x.x < y.x; });
-    std::vector<vec2> joined;
-    for (vec2 s : line.stretches)
-        if (!joined.empty() && s.x <= joined.back().y + 0.02f * radius)
-            joined.back().y = std::max(joined.back().y, s.y);
-        else
-            joined.push_back(s);
-    line.stretches.clear();
-    for (vec2 s : joined)
-        if (s.y - s.x >= least_wall * radius) {
-            line.stretches.push_back(s);
-            line.length = std::max(line.length, s.y - s.x);
-        }
-}
-
-/// The lines on which long enough walls stand, from the segments of one patch.
-std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius) {
-    std::unordered_map<uint64_t, float> lengths;
-    const auto key = [](glm::ivec2 bin) { return uint64_t(uint(bin.x)) << 32 | uint(bin.y); };
-    std::vector<glm::ivec2> bins;
-    for (const Segment& s : segments) {
-        bins.push_back(bin_of(s, radius));
-        lengths[key(bins.back())] += length(s.b - s.a);
-    }
-    const auto length_around = [&](glm::ivec2 bin) {
-        float sum = 0;
-        for (int x = -1; x <= 1; ++x)
-            for (int y = -1; y <= 1; ++y)
-                if (const auto found = lengths.find(key(bin + glm::ivec2(x, y))); found != lengths.end())
-                    sum += found->second;
-        return sum;
-    };
-    std::vector<WallLine> lines;
-    std::vector<char> taken(segments.size(), 0);
-    size_t tried = 0;
-    for (size_t i = 0; i < segments.size() && tried < most_tried && lines.size() < most_cuts; ++i) {
-        const vec2 along = segments[i].b - segments[i].a;
-        const float size = length(along);
-        if (taken[i] || !(size > 0) || length_around(bins[i]) < least_wall * radius) continue;
-        ++tried;
-        WallLine line{segments[i].a, along / size, {}};
-        for (size_t j = i; j < segments.size(); ++j) {
-            if (taken[j] || std::abs(line.height(segments[j].a)) > tolerance * radius ||
-                std::abs(line.height(segments[j].b)) > tolerance * radius)
-                continue;
-            taken[j] = 1;
-            const float a = dot(segments[j].a - line.point, line.along),
-                        b = dot(segments[j].b - line.point, line.along);
-            line.stretches.emplace_back(std::min(a, b), std::max(a, b));
-        }
-        join_stretches(line, radius);
-        if (line.length > 0) lines.push_back(std::move(line));
-    }
-    return lines;
-}
 
 /// The convex hull of points (monotone chain, Andrew 1979).
 Outline hull_of(Outline points) {
@@ -199,9 +39,10 @@ Outline hull_of(Outline points) {
 
 /// The outlines of the wanted patches, in their frames.
 std::unordered_map<uint, Outline> outlines_of(const Scene& scene, const Patches& patches,
-                                              const std::vector<PatchShape>& shapes, const std::vector<uint>& wanted) {
+                                              const std::vector<PatchShape>& shapes,
+                                              const std::vector<WalledPatch>& walled) {
     std::unordered_map<uint, Outline> outlines;
-    for (uint patch : wanted) outlines[patch];
+    for (const WalledPatch& w : walled) outlines[w.patch];
     for (size_t side = 0; side < patches.of_side.size(); ++side)
         if (const auto found = outlines.find(patches.of_side[side]); found != outlines.end())
             for (int c = 0; c < 3; ++c)
@@ -234,7 +75,7 @@ float length_inside(const Outline& outline, const WallLine& line, float radius) 
         const float s = dot(p + (q - p) * (hp / (hp - hq)) - line.point, line.along);
         first = std::min(first, s), last = std::max(last, s);
     }
-    if (std::min(-low, high) < least_piece * radius) return 0;
+    if (std::min(-low, high) < (line.is_chord ? width_of_chords(radius) : least_piece * radius)) return 0;
     float inside = 0;
     for (vec2 s : line.stretches) inside += std::max(0.0f, std::min(s.y, last) - std::max(s.x, first));
     return inside;
@@ -270,8 +111,10 @@ class Cutter {
     uint divide(const Outline& outline, int depth) {
         const WallLine* best = nullptr;
         float most = 0.02f * radius_;
-        for (const WallLine& line : *lines_)
+        for (const WallLine& line : *lines_) {
+            if (line.is_chord && best) break;  // chords are the last, in the order in which they cut
             if (const float inside = length_inside(outline, line, radius_); inside > most) best = &line, most = inside;
+        }
         if (!best || left_ == 0 || depth == deepest_cut) return add_piece(outline, depth > 0);
         --left_;
         const auto index = uint(patches_.cuts.size());
@@ -319,24 +162,12 @@ class Cutter {
 }  // namespace
 
 void cut_patches(const Scene& scene, float radius, Patches& patches, std::vector<PatchShape>& shapes) {
-    const std::vector<Segment> segments = find_segments(scene, radius, shapes);
-    std::vector<size_t> starts{0};
-    for (size_t i = 1; i <= segments.size(); ++i)
-        if (i == segments.size() || segments[i].patch != segments[i - 1].patch) starts.push_back(i);
-    if (segments.empty()) return;
-    std::vector<std::vector<WallLine>> lines(starts.size() - 1);
-    parallel_for(lines.size(), [&](size_t i) {
-        lines[i] = find_lines(std::span(segments).subspan(starts[i], starts[i + 1] - starts[i]), radius);
-    });
-    std::vector<uint> wanted;
-    for (size_t i = 0; i < lines.size(); ++i)
-        if (!lines[i].empty()) wanted.push_back(segments[starts[i]].patch);
-    const std::unordered_map<uint, Outline> outlines = outlines_of(scene, patches, shapes, wanted);
+    const std::vector<WalledPatch> walled = find_walls(scene, radius, shapes);
+    if (walled.empty()) return;
+    const std::unordered_map<uint, Outline> outlines = outlines_of(scene, patches, shapes, walled);
     Cutter cutter(radius, patches, shapes);
-    for (size_t i = 0; i < lines.size(); ++i) {
-        const uint patch = segments[starts[i]].patch;
-        if (!lines[i].empty() && outlines.at(patch).size() > 2) cutter.cut(patch, outlines.at(patch), lines[i]);
-    }
+    for (const auto& [patch, lines] : walled)
+        if (outlines.at(patch).size() > 2) cutter.cut(patch, outlines.at(patch), lines);
     cutter.finish();
 }
 
@@ -351,6 +182,15 @@ vec2 nearest_in_outline(const std::vector<vec2>& outline, vec2 p) {
         if (const float d2 = dot(p - on_edge, p - on_edge); d2 < least) least = d2, nearest = on_edge;
     }
     return inside ? p : nearest;
+}
+
+vec2 inside_outline(const std::vector<vec2>& outline, vec2 p, float distance) {
+    for (size_t i = 0; i < outline.size(); ++i) {
+        const vec2 a = outline[i], edge = outline[(i + 1) % outline.size()] - a;
+        const vec2 inwards = vec2(-edge.y, edge.x) / std::max(length(edge), 1e-20f);
+        p += inwards * std::max(0.0f, distance - dot(p - a, inwards));
+    }
+    return p;
 }
 
 }  // namespace lw

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "maps/cuts.h"
+#include "maps/wall_lines.h"
 
 namespace lw {
 namespace {
@@ -37,13 +38,17 @@ class MapFinder {
     /// Appends every map that refers to the photon, its own first and marked.
     void find(const Photon& photon, std::vector<uint>& found) const {
         const uint own = in_.patches.at(2 * photon.triangle + photon.side(), photon.position);
-        found.push_back(own | first_of_photon);
         const std::span<const uint> near = in_.neighbours.near(own, photon.position);
-        if (near.empty()) return;
+        const size_t first = found.size();
         const vec3 normal = normal_of(photon);
+        const bool stays = near.empty() || is_before_the_wall(photon.position, normal, own);
+        if (stays) found.push_back(own | first_of_photon);
         for (uint patch : near)
             if (belongs(photon.position, normal, patch) && is_in_sight(photon.position, normal, patch))
                 found.push_back(patch);
+        if (stays) return;
+        if (found.size() == first) found.push_back(own);
+        found[first] |= first_of_photon;
     }
 
   private:
@@ -93,6 +98,21 @@ class MapFinder {
         const PatchShape& shape = in_.shapes[patch];
         if (shape.cos_spread < same_plane || dot(shape.normal, normal) < same_plane) return true;
         vec3 way = nearest_point(position, shape.to_local(position), shape) - position;
+        return is_clear(position, normal, way);
+    }
+
+    /// Whether a photon close to the border of its own piece sees the inside of it: a chord does not follow a round
+    /// wall everywhere.
+    bool is_before_the_wall(vec3 position, vec3 normal, uint own) const {
+        const PatchShape& shape = in_.shapes[own];
+        if (shape.outline.empty()) return true;
+        const vec2 place(shape.to_local(position));
+        const vec2 way = inside_outline(shape.outline, place, 5.0f * width_of_chords(largest_)) - place;
+        return way == vec2(0) || is_clear(position, normal, shape.u_axis * way.x + shape.v_axis * way.y);
+    }
+
+    /// Whether a ray a little above a plane, and a little longer than the way along it, meets nothing.
+    bool is_clear(vec3 position, vec3 normal, vec3 way) const {
         way -= normal * dot(way, normal);
         const float distance = length(way);
         const float lift = std::max(height_of_cuts(largest_), 8 * in_.caster.epsilon());

@@ -1,6 +1,10 @@
 #include "measure/placing.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include "trace/sampling.h"
 
@@ -8,23 +12,87 @@ namespace lw {
 namespace {
 
 constexpr float height_over_surface = 1e-3f;  // m
+constexpr float tolerance = 0.05f;            // of the height
 constexpr float on_surface_within = 2e-3f;    // m
 constexpr float border_within = 1e-2f;        // m
 constexpr int directions_beside = 16;
 constexpr float least_alignment = 0.99f;  // cosine between a sensor and the surface it measures
+constexpr float facing = 0.5f;            // cosine from which a surface is on one side of another direction
+constexpr size_t most_around = 256;       // triangles within a millimetre
+constexpr int pushes = 8;                 // out of a corner: each wall moves the sensor a little towards the others
+
+/// A triangle close to a sensor; the normal tells the side on which the sensor is to stand.
+struct Facet {
+    std::array<vec3, 3> corners;
+    vec3 normal;
+    bool is_measured;
+
+    float height(vec3 p) const { return dot(p - corners[0], normal); }
+    float distance(vec3 p) const {
+        return length(p - closest_point_on_triangle(p, corners[0], corners[1], corners[2]));
+    }
+    vec3 pushed(vec3 p) const { return p + normal * (height_over_surface - height(p)); }
+};
+
+/// The facets around a sensor, the nearest first. What it measures counts from either side; so does what is behind a
+/// sensor that is on no surface of its own direction. Of all others the front does, and of sheets the side it is on.
+std::vector<Facet> facets_around(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor) {
+    std::vector<uint> found;
+    caster.triangles_around(sensor.position, height_over_surface, most_around, found);
+    std::sort(found.begin(), found.end());
+    std::vector<Facet> facets;
+    for (const uint t : found) {
+        const std::array<vec3, 3> p{surfaces.corner_position(t, 0), surfaces.corner_position(t, 1),
+                                    surfaces.corner_position(t, 2)};
+        const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
+        if (!(length(product) > 0)) continue;
+        const vec3 n = product / length(product);
+        facets.push_back({p, n, std::abs(dot(n, sensor.normal)) >= least_alignment});
+        const bool is_sheet = surfaces.material_of(t).flags & material_double_sided;
+        if (is_sheet && facets.back().height(sensor.position) < -tolerance * height_over_surface)
+            facets.back().normal = -n;
+    }
+    const bool lies = std::any_of(facets.begin(), facets.end(), [](const Facet& f) { return f.is_measured; });
+    for (Facet& f : facets)
+        if (const float cosine = dot(f.normal, sensor.normal); f.is_measured || (!lies && std::abs(cosine) >= facing))
+            f.normal *= cosine < 0 ? -1.0f : 1.0f;
+    std::stable_sort(facets.begin(), facets.end(), [&](const Facet& a, const Facet& b) {
+        return std::tuple(!a.is_measured, a.distance(sensor.position)) <
+               std::tuple(!b.is_measured, b.distance(sensor.position));
+    });
+    return facets;
+}
+
+/// Of two facets back to back the nearer stays. A wall whose front is turned away from the surface that is measured is
+/// turned round.
+std::vector<Facet> sides_of(const std::vector<Facet>& facets, vec3 position) {
+    const auto is_over_measured = [&](vec3 p) {
+        return std::any_of(facets.begin(), facets.end(), [&](const Facet& f) {
+            return f.is_measured && f.distance(p) <= (1 + tolerance) * height_over_surface;
+        });
+    };
+    std::vector<Facet> sides;
+    for (Facet f : facets) {
+        if (f.is_measured) {
+            if (f.height(position) < height_over_surface) position = f.pushed(position);
+        } else if (!is_over_measured(f.pushed(position))) {
+            f.normal = -f.normal;
+            if (!is_over_measured(f.pushed(position))) f.normal = -f.normal;
+        }
+        const auto is_opposite = [&](const Facet& other) { return dot(other.normal, f.normal) < -facing; };
+        if (std::none_of(sides.begin(), sides.end(), is_opposite)) sides.push_back(f);
+    }
+    return sides;
+}
 
 }  // namespace
 
 Sensor lifted(const SurfaceReader& surfaces, const RayCaster& caster, Sensor sensor) {
-    const mat3 frame = frame_around(sensor.normal);
-    for (const vec3 away : {frame[2], frame[0], -frame[0], frame[1], -frame[1]}) {
-        const vec3 start = sensor.position + away * height_over_surface;
-        const std::optional<Hit> hit = caster.nearest(start, -away, 2 * height_over_surface);
-        if (!hit) continue;
-        const vec3 n = surfaces.surface_at(hit->triangle, hit->barycentrics).geometric_normal;
-        if (away != frame[2] && dot(n, away) < 0.5f) continue;
-        sensor.position = start + away * (height_over_surface - hit->distance);
-    }
+    const std::vector<Facet> sides = sides_of(facets_around(surfaces, caster, sensor), sensor.position);
+    for (int i = 0; i < pushes; ++i)
+        for (const Facet& f : sides)
+            if (f.distance(sensor.position) < (1 - tolerance) * height_over_surface)
+                sensor.position = f.pushed(sensor.position);
     return sensor;
 }
 

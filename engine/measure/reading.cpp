@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/error.h"
+
 namespace lw {
 namespace {
 
@@ -58,6 +60,16 @@ double spread_of(const Reading& reading, std::span<const vec3> factors, double m
 
 bool is_dark(const Reading& reading) {
     return std::all_of(reading.lamps.begin(), reading.lamps.end(), [](ChannelLux lamp) { return lamp == vec3(0); });
+}
+
+void check_is_light(std::span<const Reading> readings) {
+    for (size_t i = 0; i < readings.size(); ++i)
+        for (const auto& values : {readings[i].lamps, readings[i].repeated, readings[i].photon_variance})
+            for (const ChannelLux& lux : values)
+                for (int c = 0; c < 3; ++c)
+                    if (!std::isfinite(lux[c]) || lux[c] < 0)
+                        throw Error("sensor " + std::to_string(i + 1) + " reads " + std::to_string(lux[c]) +
+                                    ", which is no light");
 }
 
 double lux_of_lamp(const Reading& reading, size_t lamp, vec3 factor) { return sum_of(factor, reading.lamps[lamp]); }

@@ -48,6 +48,9 @@ Value value_of(const Reading& reading, std::span<const vec3> factors, float main
 /// True when no lamp was found at all.
 bool is_dark(const Reading& reading);
 
+/// Throws Error with the number of the sensor when a reading is NaN, infinite or negative.
+void check_is_light(std::span<const Reading> readings);
+
 /// Lux of one lamp at `factor` of the file's power.
 double lux_of_lamp(const Reading& reading, size_t lamp, vec3 factor = vec3(1));
 

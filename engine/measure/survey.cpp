@@ -58,6 +58,7 @@ void read_places(const Scene& scene, const RayCaster& caster, const PhotonMap& m
     std::vector<Sensor> sensors;
     for (const Place& at : places) sensors.push_back(survey.sets[at.set].set.sensors[at.sensor]);
     std::vector<Reading> readings = read_sensors(scene, caster, map, sensors, settings);
+    check_is_light(readings);
     for (size_t i = 0; i < places.size(); ++i)
         survey.sets[places[i].set].readings[places[i].sensor] = std::move(readings[i]);
 }

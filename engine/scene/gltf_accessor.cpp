@@ -62,6 +62,11 @@ float read_component(const unsigned char* bytes, int type, bool normalized) {
     }
 }
 
+bool is_unsigned(int type) {
+    return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
 uint32_t read_unsigned(const unsigned char* bytes, size_t size) {
     uint32_t value = 0;
     std::memcpy(&value, bytes, size);  // little endian, as every machine with the GPUs we use
@@ -82,11 +87,7 @@ const tinygltf::Accessor& checked_accessor(const GltfFile& file, int index, cons
 std::vector<uint32_t> sparse_rows(const GltfFile& file, const tinygltf::Accessor& accessor, const std::string& where) {
     const auto& sparse = accessor.sparse;
     const int type = sparse.indices.componentType;
-    const bool is_unsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                             type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                             type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 || !is_unsigned)
-        file.fail(where + ": malformed sparse accessor");
+    if (!is_unsigned(type)) file.fail(where + ": sparse indices must be unsigned");
     const size_t bytes = component_bytes(type);
     const RawRows raw = rows_in_view(file, sparse.indices.bufferView, uint64_t(sparse.indices.byteOffset),
                                      uint64_t(sparse.count), bytes, where);
@@ -150,10 +151,8 @@ FloatRows read_floats(const GltfFile& file, int index, const std::string& where)
 std::vector<uint32_t> read_indices(const GltfFile& file, int index, const std::string& where) {
     const tinygltf::Accessor& accessor = checked_accessor(file, index, where);
     const int type = accessor.componentType;
-    const bool is_unsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                             type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                             type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (!is_unsigned || accessor.type != TINYGLTF_TYPE_SCALAR) file.fail(where + ": indices must be unsigned scalars");
+    if (!is_unsigned(type) || accessor.type != TINYGLTF_TYPE_SCALAR)
+        file.fail(where + ": indices must be unsigned scalars");
     const size_t size = component_bytes(type);
     if (accessor.bufferView >= 0)
         rows_in_view(file, accessor.bufferView, accessor.byteOffset, accessor.count, size, where);

@@ -121,7 +121,6 @@ void check_uris(const GltfFile& file, const Json& root, const char* kind) {
 
 /// What must be known before tinygltf decodes anything: it checks neither extensionsRequired nor where URIs lead.
 void check_before_parsing(GltfFile& file, const Json& root) {
-    if (!root.is_object()) file.fail("the root of the JSON is not an object");
     const auto asset = root.find("asset");
     const bool has_version =
         asset != root.end() && asset->is_object() && asset->contains("version") && (*asset)["version"].is_string();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/gltf_accessor.h"
 #include "scene/profile.h"
 
 namespace lw {
@@ -12,17 +13,6 @@ std::string text_of(const tinygltf::Value& object, const char* key) {
     return object.Has(key) && object.Get(key).IsString() ? object.Get(key).Get<std::string>() : "";
 }
 
-Photometry photometry_in_buffer(const GltfFile& file, int view, const std::string& where) {
-    if (view < 0 || size_t(view) >= file.model.bufferViews.size()) file.fail(where + ": there is no such bufferView");
-    const tinygltf::BufferView& at = file.model.bufferViews[size_t(view)];
-    if (at.buffer < 0 || size_t(at.buffer) >= file.model.buffers.size()) file.fail(where + ": its buffer is missing");
-    const std::vector<unsigned char>& bytes = file.model.buffers[size_t(at.buffer)].data;
-    if (at.byteOffset > bytes.size() || at.byteLength > bytes.size() - at.byteOffset)
-        file.fail(where + ": its bufferView lies outside the buffer");
-    const auto first = bytes.begin() + ptrdiff_t(at.byteOffset);
-    return parse_photometry(std::string(first, first + ptrdiff_t(at.byteLength)), file.name + ": " + where);
-}
-
 Photometry photometry_of(const GltfFile& file, int index, const Scene& scene) {
     const std::string where = "light profile " + std::to_string(index);
     const auto root = file.model.extensions.find("EXT_lights_ies");
@@ -30,7 +20,10 @@ Photometry photometry_of(const GltfFile& file, int index, const Scene& scene) {
         index < 0 || size_t(index) >= root->second.Get("lights").ArrayLen())
         file.fail("there is no " + where);
     const tinygltf::Value& profile = root->second.Get("lights").Get(index);
-    if (profile.Has("bufferView")) return photometry_in_buffer(file, index_of(profile, "bufferView", -1), where);
+    if (profile.Has("bufferView")) {
+        const std::span<const unsigned char> text = read_view(file, index_of(profile, "bufferView", -1), where);
+        return parse_photometry(std::string(text.begin(), text.end()), file.name + ": " + where);
+    }
     const std::string uri = text_of(profile, "uri");
     if (uri.empty()) file.fail(where + ": has neither uri nor bufferView");
     if (!uri.starts_with("data:")) return read_photometry(scene.path.parent_path() / decoded_uri(file, uri));

@@ -20,11 +20,9 @@ using Json = nlohmann::json;
 nlohmann::json read_json(const std::filesystem::path& path) {
     constexpr uintmax_t most_bytes = uintmax_t(64) << 20;
     std::error_code failure;
-    const bool is_file = std::filesystem::is_regular_file(path, failure);
-    if (!is_file) throw Error(path.string() + ": no such file");
-    if (std::filesystem::file_size(path, failure) > most_bytes) throw Error(path.string() + ": larger than 64 MiB");
     std::ifstream stream(path, std::ios::binary);
-    if (!stream) throw Error(path.string() + ": cannot be read");
+    if (!stream || !std::filesystem::is_regular_file(path, failure)) throw Error(path.string() + ": cannot be opened");
+    if (std::filesystem::file_size(path, failure) > most_bytes) throw Error(path.string() + ": larger than 64 MiB");
     try {
         return nlohmann::json::parse(stream);
     } catch (const nlohmann::json::exception& wrong) {

@@ -220,6 +220,28 @@ TEST(ProfileLight, NodesOfExtLightsIesAreLamps) {
     EXPECT_NE(test::error_of([&] { g.load(); }).find("not inside the folder"), std::string::npos);
 }
 
+TEST(ProfileLight, OfANodeThatMakesNoSenseIsRefusedByName) {
+    const auto refused = [](const test::Json& profile, const test::Json& reference, double place, const char* named) {
+        test::GltfText g = test::square();
+        g.doc["extensionsUsed"].push_back("EXT_lights_ies");
+        g.doc["extensions"]["EXT_lights_ies"]["lights"] = test::Json::array({profile});
+        g.doc["nodes"].push_back({{"translation", {place, 0, 2}}, {"extensions", {{"EXT_lights_ies", reference}}}});
+        g.doc["scenes"][0]["nodes"].push_back(2);
+        const std::string told = test::error_of([&] { g.load(); });
+        EXPECT_NE(told.find(named), std::string::npos) << named << ": " << told;
+    };
+    const test::Json first = {{"light", 0}};
+    refused({{"bufferView", 9}}, first, 0, "light profile 0: there is no buffer view 9");
+    refused({{"name", "none"}}, first, 0, "light profile 0: has neither uri nor bufferView");
+    refused({{"uri", "data:text/plain,IESNA"}}, first, 0, "light profile 0: its data: address is not base64");
+    refused({{"uri", "lost.ies"}}, first, 0, "lost.ies: cannot be opened");
+    const std::string ies = "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 1 0 0 0\n1 1 30\n0 45 90\n0\n100 50 0\n";
+    const test::Json good = {{"uri", "data:text/plain;base64," + test::base64({ies.begin(), ies.end()})}};
+    for (const double multiplier : {-1.0, 1e300})
+        refused(good, {{"light", 0}, {"multiplier", multiplier}}, 0, "the multiplier of its light profile");
+    refused(good, first, 1e30, "node 2: the position is too far away");
+}
+
 TEST(ProfileLight, ColourTemperatureTintsAWhiteLampWithoutChangingItsLight) {
     const vec3 warm = color_of_temperature(3000), day = color_of_temperature(6504);
     EXPECT_NEAR(dot(warm, vec3(0.2126f, 0.7152f, 0.0722f)), 1, 1e-5f);

@@ -124,6 +124,42 @@ TEST(DamagedJson, OfWalksIsRefusedOrGivesCamerasAtAllTimes) {
     EXPECT_LT(taken, 9'900u);
 }
 
+/// Each of these was found by taking its check away: no test failed.
+TEST(DamagedJson, WhatOnlyOneCheckRefusesIsNamed) {
+    const TempFolder folder;
+    const std::string path = folder / "cornell.some.json";
+    const auto told_of = [&](const std::string& text) -> std::string {
+        write_text(path, text);
+        try {
+            load_bookmarks(path);
+        } catch (const Error& refusal) {
+            return refusal.what();
+        }
+        return "";
+    };
+    const auto refused = [&](const std::string& entry, const std::string& told) {
+        EXPECT_EQ(told_of(R"({"bookmarks": [{"position": [0, 0, 0]}, )" + entry + "]}"), path + ": " + told) << entry;
+    };
+    refused("{}", "bookmark 2: position must be [x, y, z] in metres");
+    refused(R"({"position": [0, 0]})", "bookmark 2: position must be [x, y, z] in metres");
+    refused(R"({"position": [0, "x", 0]})", "bookmark 2: position must be [x, y, z] in metres");
+    refused(R"({"position": [0, 1e300, 0]})", "bookmark 2: position is out of range");
+    refused(R"({"position": [0, 0, 0], "yaw_deg": "north"})", "bookmark 2: yaw_deg must be a number");
+    refused(R"({"position": [0, 0, 0], "yaw_deg": 1e10})", "bookmark 2: yaw_deg is out of range");
+    refused(R"({"position": [0, 0, 0], "fov_deg": 0.5})", "bookmark 2: fov_deg must be from 1 to 150");
+    refused("3", "bookmarks: every entry must be an object");
+    EXPECT_EQ(told_of("[]"), path + ": must have a list \"bookmarks\"");
+    EXPECT_EQ(told_of(R"({"bookmarks": {}})"), path + ": must have a list \"bookmarks\"");
+    for (const std::string& other : {folder / "cornell.none.json", folder / "."}) {
+        try {
+            load_path(other);
+            ADD_FAILURE() << other;
+        } catch (const Error& refusal) {
+            EXPECT_EQ(std::string(refusal.what()), other + ": cannot be opened");
+        }
+    }
+}
+
 TEST(DamagedJson, NestedDeeplyOrHugeIsRefused) {
     const TempFolder folder;
     const std::string path = folder / "cornell.some.json";
@@ -133,6 +169,11 @@ TEST(DamagedJson, NestedDeeplyOrHugeIsRefused) {
         EXPECT_THROW(load_lamp_book(path), Error) << text.size();
         EXPECT_THROW(load_bookmarks(path), Error) << text.size();
         EXPECT_THROW(load_path(path), Error) << text.size();
+    }
+    try {
+        load_lamp_book(path);
+    } catch (const Error& refusal) {  // before 65 MiB are parsed
+        EXPECT_NE(std::string(refusal.what()).find("larger than 64 MiB"), std::string::npos) << refusal.what();
     }
 }
 

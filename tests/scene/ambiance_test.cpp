@@ -42,18 +42,32 @@ TEST(Ambiance, IsEmptyWithoutAFile) {
 }
 
 TEST(Ambiance, RefusesWhatIsMalformedAndNamesIt) {
-    EXPECT_NE(refusal_of("{").find("is not JSON"), std::string::npos);
-    EXPECT_NE(refusal_of("[]").find("must be an object"), std::string::npos);
-    EXPECT_NE(refusal_of(R"({"ambiances": 3})").find("ambiances"), std::string::npos);
-    EXPECT_NE(refusal_of(R"({"ambiances": {"Night": [1]}})").find("\"Night\""), std::string::npos);
-    for (const char* value : {"-1", "\"half\"", "1e30", "null", "{\"factor\": true}", "{\"color\": [1, 1]}",
-                              "{\"color\": [1, -1, 1]}", "{\"colour\": [1, 1, 1]}"})
-        EXPECT_NE(
-            refusal_of("{\"ambiances\": {\"Night\": {\"Lamp\": " + std::string(value) + "}}}").find("lamp \"Lamp\""),
-            std::string::npos)
-            << value;
-    EXPECT_NE(refusal_of(R"({"groups": {"Ceiling": "Lamp"}})").find("\"Ceiling\""), std::string::npos);
-    EXPECT_NE(refusal_of(R"({"groups": {"Ceiling": [1]}})").find("\"Ceiling\""), std::string::npos);
+    const auto refused = [](const std::string& text, const char* named) {
+        EXPECT_NE(refusal_of(text).find(named), std::string::npos) << text << ": " << refusal_of(text);
+    };
+    refused("{", "is not JSON");
+    refused("[]", "must be an object with ambiances and groups");
+    refused(R"({"ambiances": 3})", "ambiances: must be an object");
+    refused(R"({"ambiances": {"Night": [1]}})", "ambiance \"Night\": must be an object of lamps");
+    const std::pair<const char*, const char*> lamps[] = {{"-1", "must be from 0 to 1000000"},
+                                                         {"1e30", "must be from 0 to 1000000"},
+                                                         {"\"half\"", "must be a number"},
+                                                         {"null", "must be a number"},
+                                                         {R"({"factor": true})", "factor: must be a number"},
+                                                         {R"({"color": 1})", "color must be [red, green, blue]"},
+                                                         {R"({"color": [1, 1]})", "color must be [red, green, blue]"},
+                                                         {R"({"color": [1, -1, 1]})", "color: must be from 0"},
+                                                         {R"({"color": [1, "x", 1]})", "color: must be a number"},
+                                                         {R"({"kelvin": "warm"})", "kelvin must be a number"},
+                                                         {R"({"kelvin": 999})", "kelvin must be from 1000 to 15000"},
+                                                         {R"({"kelvin": 1e30})", "kelvin must be from 1000 to 15000"},
+                                                         {R"({"colour": [1, 1, 1]})", "unknown entry \"colour\""}};
+    for (const auto& [value, told] : lamps)
+        refused("{\"ambiances\": {\"Night\": {\"Lamp\": " + std::string(value) + "}}}",
+                ("ambiance \"Night\": lamp \"Lamp\": " + std::string(told)).c_str());
+    refused(R"({"groups": {"Ceiling": "Lamp"}})", "group \"Ceiling\": must be a list of names of lamps");
+    refused(R"({"groups": {"Ceiling": [1]}})", "group \"Ceiling\": must be a list of names of lamps");
+    refused(R"({"photometry": {"Lamp": 1}})", "photometry: lamp \"Lamp\": must be the name of a file");
 }
 
 TEST(Ambiance, MultipliesThePowersOfItsLampsAndRefusesUnknownOnes) {

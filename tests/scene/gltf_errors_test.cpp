@@ -17,6 +17,9 @@ std::string bytes_of(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+constexpr const char* white_png =  // 1 x 1, base64
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4//8/AAX+Av4N70a4AAAAAElFTkSuQmCC";
+
 /// The square as a GLB: a JSON chunk and a BIN chunk.
 std::string square_glb(const Json& images = Json()) {
     GltfText g = square();
@@ -123,13 +126,40 @@ TEST(GltfErrors, PositionThatIsNotFinite) {
 }
 
 TEST(GltfErrors, UrisStayInTheFolder) {
-    for (const std::string uri :
-         {"../a.bin", "/etc/passwd", "a/%2e%2e/../b.bin", "file:///etc/passwd", "..\\a.bin", "$(touch x).bin"}) {
-        GltfText g = square();
+    GltfText g = square();
+    const auto outside = GltfText::write("", "room.gltf").parent_path().parent_path() / "lumenwalk_outside.bin";
+    std::ofstream(outside, std::ios::binary).write(reinterpret_cast<const char*>(g.bytes.data()), long(g.bytes.size()));
+    for (const std::string& uri :
+         {std::string("../lumenwalk_outside.bin"), std::string("%2e%2e/lumenwalk_outside.bin"), outside.string(),
+          "file://" + outside.string(), std::string("..\\lumenwalk_outside.bin"), std::string("c:a.bin")}) {
         Json doc = g.doc;
         doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", uri}}};
-        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "") << uri;
+        const std::string told = error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); });
+        EXPECT_NE(told.find("is not inside the folder of the file"), std::string::npos) << uri << ": " << told;
+        GltfText profile = square();
+        profile.doc["extensionsUsed"].push_back("EXT_lights_ies");
+        profile.doc["extensions"]["EXT_lights_ies"]["lights"] = {{{"uri", uri}}};
+        profile.node()["extensions"]["EXT_lights_ies"]["light"] = 0;
+        EXPECT_NE(message(profile).find("is not inside the folder of the file"), std::string::npos) << message(profile);
     }
+    std::filesystem::remove(outside);
+    Json doc = g.doc;
+    doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "$(touch x).bin"}}};  // no shell is asked
+    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
+    EXPECT_FALSE(std::filesystem::exists("x"));
+}
+
+TEST(GltfErrors, AFileThatCannotBeReadIsNamed) {
+    EXPECT_EQ(error_of([] { load_gltf("/nowhere/room.glb"); }), "/nowhere/room.glb: cannot be opened");
+    EXPECT_EQ(error_of([] { load_gltf("/"); }), "/: cannot be opened");
+    const std::string shorter = "/sys/kernel/mm/transparent_hugepage/enabled";  // than the 4096 bytes it claims
+    if (std::filesystem::exists(shorter)) {
+        EXPECT_EQ(error_of([&] { load_gltf(shorter); }), shorter + ": cannot be read");
+    }
+    const auto large = GltfText::write("glTF", "large.glb");
+    std::filesystem::resize_file(large, uint64_t(1) << 32);  // sparse
+    EXPECT_NE(error_of([&] { load_gltf(large); }).find("larger than 4 GiB"), std::string::npos);
+    std::filesystem::remove(large);
 }
 
 TEST(GltfErrors, ExternalBufferBesideTheFile) {
@@ -141,9 +171,13 @@ TEST(GltfErrors, ExternalBufferBesideTheFile) {
 }
 
 TEST(GltfErrors, NotGltfAtAll) {
-    for (const std::string text : {"", "{", "hello", "[]", "{}", "null", R"({"asset": {"version": "1.0"}})"})
-        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(text, "room.gltf")); }), "") << text;
-    EXPECT_NE(error_of([] { load_gltf("/nowhere/room.glb"); }), "");
+    const auto refused = [](const std::string& text, const char* named) {
+        const std::string told = error_of([&] { load_gltf(GltfText::write(text, "room.gltf")); });
+        EXPECT_NE(told.find(named), std::string::npos) << text << ": " << told;
+    };
+    for (const char* text : {"", "{", "hello"}) refused(text, "room.gltf: not valid JSON");
+    for (const char* text : {"[]", "{}", "null", "3"}) refused(text, "room.gltf: has no asset.version");
+    refused(R"({"asset": {"version": "1.0"}})", "room.gltf: is glTF 1.0, not 2.0");
     const std::string deep =
         R"({"asset": {"version": "2.0"}, "extras": )" + std::string(100000, '[') + std::string(100000, ']') + "}";
     EXPECT_EQ(error_of([&] { load_gltf(GltfText::write(deep, "room.gltf")); }), "room.gltf: JSON is nested too deeply");
@@ -152,8 +186,11 @@ TEST(GltfErrors, NotGltfAtAll) {
 TEST(GltfErrors, ABinaryFileCutAnywhereIsRefused) {
     const std::string whole = square_glb();
     ASSERT_EQ(load_gltf(GltfText::write(whole, "room.glb")).triangles.size(), 2u);
-    for (size_t length = 0; length < whole.size(); ++length)
-        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(whole.substr(0, length), "room.glb")); }), "") << length;
+    for (size_t length = 0; length < whole.size(); ++length) {
+        const std::string told = error_of([&] { load_gltf(GltfText::write(whole.substr(0, length), "room.glb")); });
+        EXPECT_NE(told.find(length < 4 ? "not valid JSON" : "truncated: " + std::to_string(length)), std::string::npos)
+            << length << ": " << told;
+    }
 }
 
 TEST(GltfErrors, ABinaryFileCutWithItsLengthRewrittenNeverCrashes) {
@@ -194,7 +231,7 @@ TEST(GltfErrors, EveryIndexOutOfRangeIsNamed) {
     refused("there is no scene 5", [](GltfText& g) { g.doc["scene"] = 5; });
     refused("there is no accessor 77", [](GltfText& g) { g.primitive()["attributes"]["POSITION"] = 77; });
     refused("indices accessor out of bounds", [](GltfText& g) { g.primitive()["indices"] = 77; });
-    refused("buffer view 9", [](GltfText& g) { g.doc["accessors"][0]["bufferView"] = 9; });
+    refused("there is no buffer view 9", [](GltfText& g) { g.doc["accessors"][0]["bufferView"] = 9; });
     refused("buffer", [](GltfText& g) { g.doc["bufferViews"][0]["buffer"] = 4; });
     refused("there is no light 8",
             [](GltfText& g) { g.doc["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 8; });
@@ -230,6 +267,38 @@ TEST(GltfErrors, WhatOnlyOneCheckRefusesIsNamed) {
         g.doc["accessors"][0]["sparse"] = {{"count", 1},
                                            {"indices", {{"bufferView", view(places)}, {"componentType", 5125}}},
                                            {"values", {{"bufferView", view(values)}}}};
+    });
+    refused("sparse indices must be unsigned", [](GltfText& g) {
+        const int places = g.accessor(std::vector<int16_t>{1}, "SCALAR", 5122);
+        const int values = g.accessor(std::vector<float>{0, 0, 0}, "VEC3", 5126);
+        const auto view = [&](int accessor) { return g.doc["accessors"][size_t(accessor)]["bufferView"]; };
+        g.doc["accessors"][0]["sparse"] = {{"count", 1},
+                                           {"indices", {{"bufferView", view(places)}, {"componentType", 5122}}},
+                                           {"values", {{"bufferView", view(values)}}}};
+    });
+    refused("node 2: the transformation is not finite", [](GltfText& g) {
+        g.node()["scale"] = {1e200, 1, 1};
+        g.node()["children"] = {2};
+        g.doc["nodes"].push_back({{"scale", {1e200, 1, 1}}});
+    });
+    refused("EXT_mesh_gpu_instancing: instance 1 is not finite", [](GltfText& g) {
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        const int places = g.accessor(std::vector<float>{0, 0, 0, nan, 0, 0}, "VEC3", 5126);
+        g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
+    });
+    refused("EXT_mesh_gpu_instancing: TRANSLATION has the wrong size", [](GltfText& g) {
+        const int places = g.accessor(std::vector<float>{0, 0}, "VEC2", 5126);
+        g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
+    });
+    refused("EXT_mesh_gpu_instancing: SCALE has the wrong size", [](GltfText& g) {
+        const int places = g.accessor(std::vector<float>(6, 0), "VEC3", 5126);
+        const int sizes = g.accessor(std::vector<float>(9, 1), "VEC3", 5126);
+        g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places}, {"SCALE", sizes}};
+    });
+    refused("there is no sampler 9", [&](GltfText& g) {
+        g.doc["images"] = {{{"uri", "data:image/png;base64," + std::string(white_png)}}};
+        g.doc["textures"] = {{{"source", 0}, {"sampler", 9}}};
+        with_material(g, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     });
     refused("thicknessFactor must not be negative", [&](GltfText& g) {
         with_material(g, {{"extensions", {{"KHR_materials_volume", {{"thicknessFactor", -1}}}}}});

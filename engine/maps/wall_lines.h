@@ -1,0 +1,29 @@
+// Where walls stand on plane patches: straight lines, and chords of round walls.
+#pragma once
+#include "maps/patches.h"
+
+namespace lw {
+
+/// A line with the stretches of it where walls stand, in metres from `point` along `along`, in the frame of a patch.
+struct WallLine {
+    vec2 point, along;
+    std::vector<vec2> stretches;
+    float length = 0;       // of the longest stretch
+    bool is_chord = false;  // of a round wall: it has one stretch
+
+    float height(vec2 p) const { return along.x * (p.y - point.y) - along.y * (p.x - point.x); }
+};
+
+struct WalledPatch {
+    uint patch;
+    std::vector<WallLine> lines;  // the straight ones first, then chords, each beginning where the one before ends
+};
+
+/// How far a chord may be from the round wall it stands for, m.
+inline float width_of_chords(float radius) { return 0.02f * radius; }
+
+/// The patches wider than the search `radius` (m) on which surfaces stand along straight lines of at least that length,
+/// or along round walls as long, at any angle steeper than 45 degrees; at most 255 lines for one.
+std::vector<WalledPatch> find_walls(const Scene& scene, float radius, const std::vector<PatchShape>& shapes);
+
+}  // namespace lw
