@@ -154,7 +154,7 @@ float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
         area = float(max(x1 - x0 + 1, 1)) * float(max(y1 - y0 + 1, 1)) * grid.cell_size * grid.cell_size;
         if (count >= wanted || covers_grid(grid, cell, ring)) break;
     }
-    if (count < 1.0f) return grid.radius;
+    if (count < wanted) return grid.radius;  // the grid ends where its photons do: their area says nothing
     return clamp(sqrt(float(neighbours) * area / (lw_pi * count)), min(0.5f * grid.cell_size, grid.radius), grid.radius);
 }
 
