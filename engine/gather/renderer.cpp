@@ -98,7 +98,8 @@ PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& set
     const Timestamps times(*device_, 3);
     PassTimes sum;
     for (uint i = 0; i < samples; ++i) {
-        const Frame frame = with_gather(make_frame(camera, {width_, height_}, i, samples), *resident_, settings.gather);
+        Frame frame = with_gather(make_frame(camera, {width_, height_}, i, samples), *resident_, settings.gather);
+        if (settings.centred) frame.jitter = vec2(0);
         submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
             using Stage = vk::PipelineStageFlagBits2;
             times.reset(commands);

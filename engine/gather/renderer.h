@@ -16,6 +16,7 @@ struct RenderSettings {
     std::optional<float> exposure_ev;  // EV100; none: from the picture
     uint samples = 1;                  // jittered views averaged per pixel
     uint frames = 1;                   // how often the same picture is made, for the times
+    bool centred = false;              // the views pass the pixels' centres, as those of a reference
 };
 
 /// Medians over the frames, from GPU timestamps.

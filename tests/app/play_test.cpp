@@ -1,11 +1,14 @@
 // Replays without a window: pictures equal those of lumenwalk-screenshot, times are written, malformed paths refused.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/places.h"
 #include "image/png.h"
 #include "programs/command.h"
 #include "programs/lavapipe.h"
 #include "scene/gltf.h"
+#include "trace/ray_caster.h"
 
 namespace lw {
 namespace {
@@ -75,6 +78,22 @@ TEST(Play, PassesThroughItsKeysAndTurnsTheShorterWay) {
     const vec3 ahead = -camera_on(path, 0.5, scene).rotation[2];
     EXPECT_GT(ahead.z, 0.9f) << "between 170 and -170 degrees it looks back, not ahead";
     EXPECT_LT(length(camera_on(path, 99, scene).position + vec3(scene.origin) - vec3(9, 1, -3)), 1e-5f);
+}
+
+/// A walker of 30 cm could go where the walk of the sample room goes, at the height of the eyes, of a table and of a seat.
+TEST(Play, TheWalkOfTheSampleRoomPassesNoWall) {
+    const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/apartment.glb");
+    const RayCaster caster(scene);
+    const Path path = load_path(LUMENWALK_SOURCE_DIR "/data/apartment.path.json");
+    for (double t = 0; t < path.seconds(); t += 0.02)
+        for (float down : {0.0f, 0.7f, 1.15f}) {
+            const vec3 here = camera_on(path, t, scene).position - vec3(0, down, 0);
+            const vec3 next = camera_on(path, t + 0.02, scene).position - vec3(0, down, 0);
+            ASSERT_EQ(caster.transmittance(here, next), vec3(1)) << "at " << t << " s";
+            for (float angle = 0; angle < 6; angle += 0.8f)
+                ASSERT_EQ(caster.transmittance(here, here + 0.15f * vec3(std::cos(angle), 0, std::sin(angle))), vec3(1))
+                    << "at " << t << " s, " << down << " m below the eyes";
+        }
 }
 
 TEST(Bookmarks, ComeBackAsTheyWereSaved) {

@@ -62,7 +62,7 @@ CaseOnDevice::CaseOnDevice(const Device& device, const BakedCase& baked) : devic
 
 TimedFrame CaseOnDevice::render(const Camera& camera, FrameSize frame, const GatherSettings& gather) const {
     Renderer renderer(device_, *resident_, frame.width, frame.height);
-    return {renderer.render(camera, {gather, std::nullopt, 1, frame.frames}), resident_->bytes()};
+    return {renderer.render(camera, {gather, std::nullopt, frame.views, frame.frames, true}), resident_->bytes()};
 }
 
 }  // namespace lw

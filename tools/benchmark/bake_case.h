@@ -58,6 +58,7 @@ double bytes_per_photon(const PhotonMap& map);
 struct FrameSize {
     uint width, height;
     uint frames = 1;  // times are their median
+    uint views = 1;   // summed, through pixel centres; times are of all
 };
 
 struct TimedFrame {

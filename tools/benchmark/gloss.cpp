@@ -15,11 +15,12 @@ namespace {
 constexpr float roughnesses[] = {0, 0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.7f, 1};
 constexpr float all_lobes = 2;  // a roughness above all
 
-/// One room with one of its materials at a roughness.
+/// One room with one of its materials at a roughness, and how many paths a pixel the path tracer needs there.
 struct Room {
     const char* file;
     const char* material;
     float roughness;
+    uint64_t samples;
 };
 
 Scene scene_of(const Bench& bench, const Room& room) {
@@ -58,8 +59,8 @@ class Measured {
         }
         return seen;
     }
-    TimedFrame render(const GatherSettings& gather, uint frames) const {
-        return device_.render(baked_.scene.cameras[0], {size_.width, size_.height, frames}, gather);
+    TimedFrame render(const GatherSettings& gather, uint frames, uint views = 1) const {
+        return device_.render(baked_.scene.cameras[0], {size_.width, size_.height, frames, views}, gather);
     }
     FrameError error(const TimedFrame& frame, const std::vector<bool>& pixels) const {
         return error_of(frame.rendering.image, reference_, Quantity::luminance, {}, pixels);
@@ -105,7 +106,7 @@ std::vector<bool> Measured::caustic_pixels(const TimedFrame& frame) const {
 
 /// The error where only the floor is looked at, by photons alone and with the lobe followed.
 std::vector<Row> measure_threshold(const Bench& bench, float roughness) {
-    const Measured room(bench, {"glossy_floor.gltf", "polished", roughness},
+    const Measured room(bench, {"glossy_floor.gltf", "polished", roughness, 0},
                         {80, 60, bench.pick<uint64_t>(64, 400)},
                         bench.pick<uint64_t>(200'000, 4'000'000));
     const std::vector<bool> floor = room.pixels_of("polished");
@@ -130,19 +131,15 @@ std::vector<Row> measure_threshold(const Bench& bench, float roughness) {
 
 std::vector<Row> measure_room(const Bench& bench, const Room& described) {
     const Measured room(bench, described,
-                        {120, 90, bench.pick<uint64_t>(64, 400)},
+                        {120, 90, bench.pick<uint64_t>(64, described.samples)},
                         bench.pick<uint64_t>(200'000, 4'000'000));
     std::vector<Row> rows;
     for (uint views : {1u, 8u, 32u, 128u}) {
-        GatherSettings gather = default_gather();
-        gather.paths *= views, gather.shadow_rays *= views;
-        const TimedFrame frame = room.render(gather, views < 32 ? 3 : 1);
+        const TimedFrame frame = room.render(default_gather(), views < 32 ? 3 : 1, views);
         Row row{{"room", described.file},
                 {"material", described.material},
                 {"roughness", described.roughness},
                 {"views", views},
-                {"paths", gather.paths},
-                {"shadow_rays", gather.shadow_rays},
                 {"visibility_ms", frame.rendering.times.visibility_ms},
                 {"gather_ms", frame.rendering.times.gather_ms}};
         const std::vector<bool> caustic = room.caustic_pixels(frame);
@@ -172,13 +169,14 @@ std::vector<Table> measure_gloss(const Bench& bench) {
     Table rooms{"gloss", "rooms",
                 "Rooms of gloss, metal and glass in the default mode, luminance against the path tracer; caustic: pixels "
                 "lit by mirrors and glass alone with more than half the picture's mean illuminance, left out of the rest. "
-                "Paths and shadow rays as in so many views at rest (the window adds up 32), through pixel centres in one frame.",
+                "Times of all the views at rest that are added up, through pixel centres; the window adds up 128.",
                 {}};
     for (const Room& room :
-         {Room{"glossy_floor.gltf", "polished", 0.05f}, Room{"glossy_floor.gltf", "polished", 0.2f},
-          Room{"glossy_floor.gltf", "polished", 0.5f}, Room{"metal_sculpture.gltf", "gold", 0.1f},
-          Room{"metal_sculpture.gltf", "gold", 0.3f}, Room{"metal_sculpture.gltf", "gold", 0.5f},
-          Room{"glass_sphere.gltf", "solid", 0}, Room{"glass_sphere.gltf", "solid", 0.2f}})
+         {Room{"glossy_floor.gltf", "polished", 0.05f, 1000}, Room{"glossy_floor.gltf", "polished", 0.2f, 1000},
+          Room{"glossy_floor.gltf", "polished", 0.5f, 1000}, Room{"metal_sculpture.gltf", "gold", 0.1f, 5000},
+          Room{"metal_sculpture.gltf", "gold", 0.3f, 3000}, Room{"metal_sculpture.gltf", "gold", 0.5f, 1000},
+          Room{"glass_sphere.gltf", "solid", 0, 2000}, Room{"glass_sphere.gltf", "solid", 0.2f, 2000},
+          Room{"glass_sphere.gltf", "solid", 0.4f, 1000}})
         for (Row& row : measure_room(bench, room)) rooms.rows.push_back(std::move(row));
     return {rooms};
 }
