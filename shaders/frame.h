@@ -28,17 +28,17 @@ LW_CONST uint binding_cell_light = 12u;  // RGBA32
 LW_CONST uint binding_cell_words = 13u;
 LW_CONST uint binding_bvh_nodes = 14u;  // RGBA32, BvhNode
 LW_CONST uint binding_bvh_triangles = 15u;
-LW_CONST uint binding_looks = 16u;  // RGBA32, the first look_texels of each Material: all but its textures
+LW_CONST uint binding_looks = 16u;  // RGBA32, look_texels for each Material
 LW_CONST uint binding_lamp_powers = 17u;  // RGBA32F, LampPower
 LW_CONST uint binding_caustic_maps = 18u;  // RG32 per triangle: map of the front, of the back; empty without caustics
 LW_CONST uint binding_shadow_masks = 19u;  // RGBA32
-LW_CONST uint texel_binding_count = 20u;
-LW_CONST uint binding_materials = 20u;  // from here on storage buffers
-LW_CONST uint binding_textures = 21u;
-LW_CONST uint binding_lights = 22u;
-LW_CONST uint binding_emitters = 23u;
-LW_CONST uint scene_binding_count = 24u;
-LW_CONST uint look_texels = 6u;
+LW_CONST uint binding_textures = 20u;  // RGBA32, texture_texels for each
+LW_CONST uint texel_binding_count = 21u;
+LW_CONST uint binding_lights = 21u;  // from here on storage buffers
+LW_CONST uint binding_emitters = 22u;
+LW_CONST uint scene_binding_count = 23u;
+LW_CONST uint look_texels = 16u;
+LW_CONST uint texture_texels = 2u;
 
 // Photon records beyond the device's texel buffers are split into chunks of 2^shift records, one descriptor each.
 LW_CONST uint most_chunks = 4u;
@@ -90,7 +90,6 @@ LW_CONST uint constant_count = 32u;
 LW_CONST uint stage_photons = 0u;
 LW_CONST uint stage_rays = 1u;
 LW_CONST uint stage_follow = 2u;
-LW_CONST uint stage_sizes = 3u;  // one group: how many groups each list takes
 LW_CONST uint gather_group_side = 8u;  // pixels
 
 /// The arguments of the dispatch for rays to a pair of lamps; its pixels are listed from pair * pixels of the picture on.
@@ -146,7 +145,8 @@ struct Screen {
 };
 
 #ifdef __cplusplus
-static_assert(offsetof(Material, absorption) == 72 && sizeof(Material) > 16 * look_texels);
+static_assert(offsetof(Material, absorption) == 72 && offsetof(Material, base_color_texture) == 84);
+static_assert(sizeof(Material) <= 16 * look_texels && sizeof(Texture) <= 16 * texture_texels);
 static_assert(sizeof(LampPower) == 32 && sizeof(RayPixels) == 16 && sizeof(Screen) == 12);
 static_assert(sizeof(Frame) == 124 && offsetof(Frame, following) == 120);
 }  // namespace lw

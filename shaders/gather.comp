@@ -204,6 +204,12 @@ void follow_pixel(uint pixel) {
         radiance_illuminance[pixel].xyz += end.glow * frame.sample_weight / float(following.paths);
 }
 
+/// Lists a pixel for each pair of lamps that have to be added to what the photons say.
+void list_for_light(uint pixel, Seen seen) {
+    for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
+        if (needs_rays(seen, pair)) list_pixel(pixel, pair);
+}
+
 /// Photons or rays at the end of a path.
 void gather_followed(uint pixel) {
     Followed at = followed[pixel];
@@ -216,8 +222,7 @@ void gather_followed(uint pixel) {
         add_rays(seen, frame.ray_pair, points, light);
     } else {
         light = estimate_at(seen);
-        for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
-            if (needs_rays(seen, pair)) list_pixel(pixel, pair);
+        list_for_light(pixel, seen);
     }
     float lux = (at.flags & followed_is_looked_at) != 0u ? luminance(light.irradiance) : 0.0f;
     radiance_illuminance[pixel] += vec4(at.weight * light.radiance, lux) * (frame.sample_weight / float(following.paths));
@@ -233,8 +238,7 @@ Gathered gather_seen(uint pixel, Seen seen) {
     } else {
         light = estimate_at(seen);
         light.radiance += own_radiance(seen.surface, seen.front);
-        for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
-            if (needs_rays(seen, pair)) list_pixel(pixel, pair);
+        list_for_light(pixel, seen);
         for (uint branch = 0u; has_followed && branch < branch_count; ++branch)
             if (goes_on(seen, branch)) list_pixel(pixel, ray_pairs(light_count) + branch);
     }
@@ -243,18 +247,7 @@ Gathered gather_seen(uint pixel, Seen seen) {
     return light;
 }
 
-/// Sizes the dispatches of all lists by their counts: a second atomic per listed pixel costs more.
-void size_lists() {
-    const uint group = gather_group_side * gather_group_side;
-    for (uint list = gl_LocalInvocationIndex; list < uint(ray_lists.length()); list += group)
-        ray_lists[list].groups_x = (ray_lists[list].count + group - 1u) / group;
-}
-
 void main() {
-    if (stage == stage_sizes) {
-        size_lists();
-        return;
-    }
     uint pixel = pixel_to_shade();
     if (pixel >= frame.width * frame.height) return;
     if (has_followed && stage == stage_follow) {

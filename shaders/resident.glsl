@@ -42,8 +42,7 @@ layout(set = 0, binding = binding_colors) uniform textureBuffer colors;
 layout(set = 0, binding = binding_tangents) uniform textureBuffer tangents;
 layout(set = 0, binding = binding_texels) uniform textureBuffer texels;
 layout(set = 0, binding = binding_looks) uniform utextureBuffer looks;
-layout(set = 0, binding = binding_materials, scalar) readonly buffer Materials { Material materials[]; };
-layout(set = 0, binding = binding_textures, scalar) readonly buffer Textures { Texture textures[]; };
+layout(set = 0, binding = binding_textures) uniform utextureBuffer texture_records;
 
 vec3 corner_position(uint triangle, uint c) { return texelFetch(corners, int(6u * triangle + 2u * c)).xyz; }
 vec3 corner_normal(uint triangle, uint c) { return texelFetch(corners, int(6u * triangle + 2u * c + 1u)).xyz; }
@@ -57,10 +56,24 @@ vec4 corner_tangent(uint triangle, uint c) { return texelFetch(tangents, int(3u 
 uint texel_word(uint i) { return packUnorm4x8(texelFetch(texels, int(i))); }
 vec4 texel_at(uint i) { return texelFetch(texels, int(i)); }
 
+Texture texture_at(int i) {
+    uvec4 first = texelFetch(texture_records, int(texture_texels) * i);
+    uvec4 second = texelFetch(texture_records, int(texture_texels) * i + 1);
+    return Texture(first.x, first.y, first.z, first.w, second.x, second.y, second.z);
+}
+
+/// Slot `i` of a material: two texels' words, from the second word of the first on.
+TextureSlot texture_slot(int look, int i) {
+    uvec4 a = texelFetch(looks, look + 5 + 2 * i);
+    uvec4 b = texelFetch(looks, look + 6 + 2 * i);
+    uvec4 c = texelFetch(looks, look + 7 + 2 * i);
+    return TextureSlot(int(a.y), a.z, uintBitsToFloat(uvec3(a.w, b.xy)), uintBitsToFloat(uvec3(b.zw, c.x)));
+}
+
 Material material_of(uint triangle) {
-    uint i = texelFetch(triangles, int(triangle)).z;
-    uvec4 t[look_texels];
-    for (uint k = 0u; k < look_texels; ++k) t[k] = texelFetch(looks, int(look_texels * i + k));
+    int look = int(look_texels * texelFetch(triangles, int(triangle)).z);
+    uvec4 t[6];
+    for (int k = 0; k < 6; ++k) t[k] = texelFetch(looks, look + k);
     Material m;
     m.base_color = uintBitsToFloat(t[0].xyz);
     m.alpha = uintBitsToFloat(t[0].w);
@@ -76,11 +89,11 @@ Material material_of(uint triangle) {
     m.flags = t[4].y;
     m.absorption = uintBitsToFloat(uvec3(t[4].zw, t[5].x));
     if (!has_textures) return m;
-    m.base_color_texture = materials[i].base_color_texture;
-    m.metallic_roughness_texture = materials[i].metallic_roughness_texture;
-    m.normal_texture = materials[i].normal_texture;
-    m.emissive_texture = materials[i].emissive_texture;
-    m.transmission_texture = materials[i].transmission_texture;
+    m.base_color_texture = texture_slot(look, 0);
+    m.metallic_roughness_texture = texture_slot(look, 1);
+    m.normal_texture = texture_slot(look, 2);
+    m.emissive_texture = texture_slot(look, 3);
+    m.transmission_texture = texture_slot(look, 4);
     return m;
 }
 

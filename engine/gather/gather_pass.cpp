@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "gather.comp.spv.h"
 #include "gpu/commands.h"
+#include "size_lists.comp.spv.h"
 
 namespace lw {
 namespace {
@@ -17,6 +19,13 @@ using Stage = vk::PipelineStageFlagBits2;
 float followed_roughness(const GatherSettings& settings) {
     return settings.shadow_rays > 0 ? settings.followed_roughness : std::sqrt(smallest_alpha);
 }
+
+/// A pipeline of the gather and what it does.
+struct StagePipeline {
+    vk::UniquePipeline* pipeline;
+    uint stage;
+    bool of_followed;
+};
 
 ShaderConstants constants_for(const Resident& resident, const GatherSettings& settings) {
     ShaderConstants constants = resident.constants();
@@ -51,20 +60,22 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
         throw Error("gather: exact search takes at most " + std::to_string(PhotonEstimator::heap_size) + " neighbours");
     const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), picture.descriptors().layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(Frame));
-    ShaderConstants constants = constants_for(resident, settings);
-    const auto make = [&](uint stage, bool of_followed) {
-        constants[constant_stage] = stage;
-        constants[constant_of_followed] = of_followed;
-        return make_compute_pipeline(device, *layout_, gather_comp, constants);
-    };
+    const ShaderConstants constants = constants_for(resident, settings);
     const bool has_rays = settings.mode != gather_mode_inspect && constants[constant_has_direct];
-    photons_ = make(stage_photons, false);
-    if (has_rays || constants[constant_has_followed]) sizes_ = make(stage_sizes, false);
-    if (has_rays) rays_ = make(stage_rays, false);
-    if (!constants[constant_has_followed]) return;
-    follow_ = make(stage_follow, false);
-    followed_photons_ = make(stage_photons, true);
-    if (has_rays) followed_rays_ = make(stage_rays, true);
+    const bool follows = constants[constant_has_followed];
+    if (has_rays || follows) sizes_ = make_compute_pipeline(device, *layout_, size_lists_comp, {});
+    std::vector<StagePipeline> wanted{{&photons_, stage_photons, false}};
+    if (has_rays) wanted.push_back({&rays_, stage_rays, false});
+    if (follows) wanted.push_back({&follow_, stage_follow, false});
+    if (follows) wanted.push_back({&followed_photons_, stage_photons, true});
+    if (follows && has_rays) wanted.push_back({&followed_rays_, stage_rays, true});
+    parallel_for(wanted.size(), [&](size_t i) {  // a second each where the driver is slow
+        ShaderConstants own = constants;
+        own[constant_stage] = wanted[i].stage;
+        own[constant_of_followed] = wanted[i].of_followed;
+        *wanted[i].pipeline = make_compute_pipeline(device, *layout_, gather_comp, own);
+    });
+    if (!follows) return;
     has_branch_[branch_reflected] = resident.narrowest_lobe() < followed_roughness(settings);
     has_branch_[branch_through] = constants[constant_looks_through];
 }

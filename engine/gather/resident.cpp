@@ -20,7 +20,7 @@ std::vector<Binding> scene_bindings() {
     std::vector<Binding> bindings;
     for (uint i = 0; i < scene_binding_count; ++i) {
         const bool of_surfaces =
-            i <= binding_texels || i == binding_looks || i == binding_materials || i == binding_textures;
+            i <= binding_texels || i == binding_looks || i == binding_textures;
         const auto type =
             i < texel_binding_count ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
         bindings.push_back({i, type, descriptor_count(i), of_surfaces ? vk::ShaderStageFlags(all) : compute});
@@ -170,15 +170,20 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     constants_[constant_heap_size] = 1;
 }
 
+/// Each record in so many texels of four words.
+template <uint Texels, class T>
+std::vector<uvec4> as_texels(const std::vector<T>& records) {
+    std::vector<uvec4> texels(Texels * records.size());
+    for (size_t i = 0; i < records.size(); ++i) std::memcpy(&texels[Texels * i], &records[i], sizeof(T));
+    return texels;
+}
+
 void Resident::upload_scene(const Scene& scene) {
     upload_corners(scene);
     upload_texels<uint>(binding_texels, vk::Format::eR8G8B8A8Unorm, scene.texels, "texels");
-    std::vector<uvec4> looks(look_texels * scene.materials.size());
-    for (size_t m = 0; m < scene.materials.size(); ++m)
-        std::memcpy(&looks[look_texels * m], &scene.materials[m], look_texels * sizeof(uvec4));
-    upload_texels<uvec4>(binding_looks, vk::Format::eR32G32B32A32Uint, looks, "materials");
-    upload_records<Material>(binding_materials, scene.materials, "materials");
-    upload_records<Texture>(binding_textures, scene.textures, "textures");
+    upload_texels<uvec4>(binding_looks, vk::Format::eR32G32B32A32Uint, as_texels<look_texels>(scene.materials), "materials");
+    upload_texels<uvec4>(binding_textures, vk::Format::eR32G32B32A32Uint, as_texels<texture_texels>(scene.textures),
+                         "textures");
 }
 
 /// The values of the vertices at the corners of all triangles.

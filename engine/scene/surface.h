@@ -34,6 +34,7 @@ class SurfaceReader {
     vec2 corner_uv1(uint triangle, uint c) const { return uv1[triangles[triangle][int(c)]]; }
     vec4 corner_color(uint triangle, uint c) const { return colors[triangles[triangle][int(c)]]; }
     vec4 corner_tangent(uint triangle, uint c) const { return tangents[triangles[triangle][int(c)]]; }
+    const Texture& texture_at(int i) const { return textures[i]; }
     const Material& material_of(uint triangle) const { return materials[objects[triangle_objects[triangle]].material]; }
     int light_of_surface(uint triangle) const { return objects[triangle_objects[triangle]].light; }
     uint texel_word(uint i) const { return texels[i]; }

@@ -49,9 +49,10 @@ TEST(Window, BakesTheMissingMapShowsItAndDimsALampAsPowerDoes) {
         return preview != std::string::npos && told.find(" photons\n", preview + 1) != std::string::npos;
     };
     ASSERT_TRUE(wait_until(both_maps_are_told));
-    pause_ms(2500);  // the full map is taken up: pipelines are made anew
-    window.key("h");  // the panels cover so small a window
-    pause_ms(500);
+    pause_ms(2500);       // the full map is taken up: pipelines are made anew
+    window.screenshot();  // and they are there
+    window.key("h");      // the panels cover so small a window
+    window.screenshot();
     xdotool("mousemove --window " + window.id() + " 160 35 click 1");  // the ceiling lamp
     pause_ms(500);
     const Image full = read_exr(window.screenshot() + ".exr");

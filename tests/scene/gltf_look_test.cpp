@@ -176,6 +176,16 @@ TEST(GltfTextures, BilinearSamplesMeetAtTexelCentres) {
     expect_near(at(-0.75f, 3.25f), vec4(1, 0, 0, 1));
 }
 
+TEST(GltfTextures, EveryCodeOfATexelIsDecodedAsTheStandardSays) {
+    const Scene scene;
+    const SurfaceReader reader(scene);
+    for (int code = 0; code < 256; ++code) {
+        const double c = code / 255.0, linear = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        EXPECT_NEAR(reader.srgb_to_linear(float(c)), linear, 6e-5 * linear) << code;
+    }
+    EXPECT_FLOAT_EQ(reader.srgb_to_linear(1), 1);
+}
+
 TEST(GltfTextures, ClampReachesTheBorderTexelOutsideTheUnitSquare) {
     Scene s = textured(png_uri).load();
     s.textures[0].srgb = 0;

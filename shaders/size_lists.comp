@@ -1,0 +1,15 @@
+// Sizes the dispatches of all lists of pixels by their counts: a second atomic for each listed pixel costs more, and so does
+// compiling gather.comp once more.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "frame.h"
+
+layout(local_size_x = gather_group_side, local_size_y = gather_group_side) in;
+layout(set = 1, binding = binding_ray_lists, scalar) buffer RayLists { RayPixels ray_lists[]; };
+
+void main() {
+    const uint group = gather_group_side * gather_group_side;
+    for (uint list = gl_LocalInvocationIndex; list < uint(ray_lists.length()); list += group)
+        ray_lists[list].groups_x = (ray_lists[list].count + group - 1u) / group;
+}
