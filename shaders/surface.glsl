@@ -5,7 +5,8 @@
 // has_emissive_textures, has_transmission_textures, has_alpha, has_transmission.
 
 /// An sRGB code in [0, 1] to its linear value (IEC 61966-2-1). The power 2.4 as t^2 times a polynomial in sqrt(t), fitted to a
-/// relative 5.8e-5, a fiftieth of a step of 8 bits: twelve powers a look-up cost a fifth of a frame where they are computed.
+/// relative 5.8e-5, less than a hundredth of a step of 8 bits: twelve powers a look-up cost a fifth of a frame where they are
+/// computed.
 float srgb_to_linear(float c) LW_MEMBER {
     float t = (c + 0.055f) / 1.055f;
     float s = sqrt(t);

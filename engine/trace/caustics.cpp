@@ -13,7 +13,13 @@ namespace {
 constexpr uint64_t paths_per_task = 4096;
 constexpr int most_bounces = 64;
 constexpr float roughest_caster = 0.35f;  // its lobe is some 15 degrees wide
-constexpr float least_alignment = 0.8f;  // cosine between the normals of a light's arrival and of the point it is for
+constexpr float least_alignment = 0.8f;   // cosine between the normals of a light's arrival and of the point it is for
+
+/// Of a Surface or a Material.
+bool is_polished(const auto& s) {
+    return s.roughness < roughest_caster && (s.metallic > 0.999f || s.transmission > 0.999f) &&
+           (s.flags & material_unlit) == 0;
+}
 
 double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
@@ -80,17 +86,13 @@ std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, s
 
 }  // namespace
 
-bool casts_caustics(const Surface& s) {
-    return s.roughness < roughest_caster && (s.metallic > 0.999f || s.transmission > 0.999f) &&
-           (s.flags & material_unlit) == 0;
-}
+bool casts_caustics(const Surface& s) { return is_polished(s); }
 
 bool has_caustics(const Scene& scene, std::span<const vec3> weights) {
     const auto is_specular = [](const Material& m) {
         const bool varies = m.metallic_roughness_texture.texture >= 0 || m.transmission_texture.texture >= 0;
         const bool smooth = varies || m.roughness * m.roughness < smallest_alpha;
-        const bool casts = m.roughness < roughest_caster && (m.metallic > 0.999f || m.transmission > 0.999f);
-        return casts || (smooth && (m.metallic > 0 || m.specular > 0 || m.transmission > 0));
+        return is_polished(m) || (smooth && (m.metallic > 0 || m.specular > 0 || m.transmission > 0));
     };
     if (std::none_of(scene.materials.begin(), scene.materials.end(), is_specular)) return false;
     return std::any_of(weights.begin(), weights.end(), [](vec3 weight) { return luminance(weight) > 0; });

@@ -105,7 +105,7 @@ Image cached_reference(const std::filesystem::path& folder, const Scene& scene, 
     settings.width = int(view.width), settings.height = int(view.height);
     settings.samples = view.samples;
     settings.illuminance = view.illuminance;
-    // As many as points they are for: a set for each sample.
+    // A set is traced for each sample: a few paths for each pixel are enough.
     settings.caustic_paths = std::min<uint64_t>(settings.caustic_paths, 4 * uint64_t(view.width) * view.height);
     settings.seed = reference_seed;
     const Image image = render_reference(scene, caster, view.camera, light_weights(scene, {}), settings).image;
