@@ -3,13 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
+#include "base/error.h"
+#include "benchmark/document.h"
 #include "benchmark/neighbour_search.h"
 #include "benchmark/rooms.h"
 #include "benchmark/table.h"
 #include "benchmark/timing.h"
 #include "maps/build.h"
 #include "photons/shoot.h"
+#include "programs/command.h"
 
 namespace lw {
 namespace {
@@ -85,6 +90,23 @@ TEST(Timing, FitsTheExponentOfAPowerLaw) {
 TEST(Table, LeavesACellEmptyWhereARowHasNoSuchColumn) {
     const Table table{"s", "n", "caption", {{{"a", 1}}, {{"b", 0.25}}}};
     EXPECT_EQ(to_markdown(table), "caption\n\n| a | b |\n|---|---|\n| 1 |  |\n|  | 0.25 |\n");
+}
+
+TEST(Document, TakesASectionBetweenItsLinesAndKeepsTheRest) {
+    const TempFolder folder;
+    const std::filesystem::path path = folder.path() / "page.md";
+    std::ofstream(path) << "head\n<!-- benchmark a -->\nold\n<!-- end of benchmark -->\nmiddle\n<!-- benchmark b -->\n"
+                           "<!-- end of benchmark -->\nfoot\n";
+    check_places(path, {"a", "b"});
+    replace_section(path, "b", "new b\n");
+    replace_section(path, "a", "new a\n");
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    EXPECT_EQ(text.str(),
+              "head\n<!-- benchmark a -->\nnew a\n<!-- end of benchmark -->\nmiddle\n<!-- benchmark b -->\nnew b\n"
+              "<!-- end of benchmark -->\nfoot\n");
+    EXPECT_THROW(check_places(path, {"a", "c"}), Error);
+    EXPECT_THROW(check_places(folder.path() / "none.md", {"a"}), Error);
 }
 
 }  // namespace

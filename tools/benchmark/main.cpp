@@ -1,5 +1,7 @@
 // lumenwalk-benchmark: what baking and gathering cost, each speed beside its error against the path tracer.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <thread>
@@ -7,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/interrupt.h"
+#include "document.h"
 #include "sections.h"
 
 namespace {
@@ -26,7 +29,7 @@ const lw::Section sections[] = {
 
 struct Options {
     std::string device, scenes = "data";
-    std::filesystem::path folder = "output/benchmark";
+    std::filesystem::path folder = "output/benchmark", document;
     std::vector<std::string> only;
     unsigned threads = 0;
     bool quick = false;
@@ -48,6 +51,9 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--device", o.device, "part of the name of a Vulkan device; default: the fastest kind");
     app.add_option("-o,--output", o.folder, "folder for benchmark.csv, benchmark.json, a CSV per table and references/")
         ->capture_default_str();
+    app.add_option("--write", o.document,
+                   "Markdown file that takes the tables of each section between its lines <!-- benchmark SECTION --> "
+                   "and <!-- end of benchmark -->; docs/accuracy.md has them all");
     app.add_option("--scenes", o.scenes, "folder of cornell.gltf and apartment.glb")->capture_default_str();
     app.add_option("--threads", o.threads, "worker threads (0: all cores)")
         ->capture_default_str()
@@ -70,32 +76,49 @@ lw::Row conditions_of(const Options& o, const lw::Device& device) {
             {"quick", o.quick}};
 }
 
-bool is_wanted(const Options& o, const char* section) {
-    return o.only.empty() || std::find(o.only.begin(), o.only.end(), section) != o.only.end();
+std::vector<lw::Section> wanted_sections(const Options& o) {
+    std::vector<lw::Section> wanted;
+    for (const lw::Section& section : sections)
+        if (o.only.empty() || std::find(o.only.begin(), o.only.end(), section.name) != o.only.end())
+            wanted.push_back(section);
+    return wanted;
+}
+
+void check_document(const Options& o) {
+    if (o.document.empty()) return;
+    std::vector<std::string> names;
+    for (const lw::Section& section : wanted_sections(o)) names.push_back(section.name);
+    lw::check_places(o.document, names);
+}
+
+/// The tables of a section as Markdown, with the machine and the time they took.
+std::string report_of(const std::vector<lw::Table>& tables, const lw::Row& conditions, double seconds) {
+    std::string text = "Measured on " + conditions["processor"].get<std::string>() + ", " + conditions["threads"].dump() +
+                       " threads, device " + conditions["device"].get<std::string>() +
+                       (conditions["quick"].get<bool>() ? ", --quick" : "") + ", in " +
+                       std::to_string(std::lround(seconds)) + " s.\n\n";
+    for (const lw::Table& table : tables) text += lw::to_markdown(table) + "\n";
+    return text;
 }
 
 /// Tables are written after each section, so that an interrupted run leaves what it measured.
 void run(const Options& o) {
+    check_document(o);
     const lw::ThreadLimit limit(o.threads);
     const lw::Device device({o.device, false});
     std::filesystem::create_directories(o.folder);
     const lw::Bench bench{device, o.folder, o.scenes, o.quick};
     const lw::Row conditions = conditions_of(o, device);
-    std::printf("Measured on %s, %s threads, device %s%s.\n\n", conditions["processor"].get<std::string>().c_str(),
-                conditions["threads"].dump().c_str(), device.name().c_str(), o.quick ? ", --quick" : "");
     std::vector<lw::Table> tables;
-    for (const lw::Section& section : sections) {
-        if (!is_wanted(o, section.name)) continue;
+    for (const lw::Section& section : wanted_sections(o)) {
         std::vector<lw::Table> measured;
         const lw::Cost cost = lw::cost_of([&] { measured = section.measure(bench); });
-        std::printf("### %s: %s\n\n", section.name, section.question);
-        for (lw::Table& table : measured) {
-            std::printf("%s\n", lw::to_markdown(table).c_str());
-            tables.push_back(std::move(table));
-        }
-        std::printf("(section %s took %.0f s)\n\n", section.name, cost.seconds);
+        const std::string report = report_of(measured, conditions, cost.seconds);
+        std::printf("### %s: %s\n\n%s", section.name, section.question, report.c_str());
         std::fflush(stdout);
+        tables.insert(tables.end(), measured.begin(), measured.end());
         lw::write_tables(o.folder, tables, conditions);
+        if (!o.document.empty()) lw::replace_section(o.document, section.name, report);
     }
 }
 

@@ -49,6 +49,7 @@ struct View {
     uint width, height;
     uint64_t photons;
     uint64_t samples;
+    bool cached_only = false;  // exact direct light and the modes that read the lattice
 };
 
 std::vector<uint> neighbours_of(const GatherMode& mode, bool quick) {
@@ -82,14 +83,17 @@ std::vector<Row> measure_case(const Bench& bench, const View& view, const BakedC
     const auto points = visible_points(baked.scene, *baked.caster, baked.map, seen.camera, view.width, view.height);
     const CaseOnDevice on_device(bench.device, baked);
     std::vector<Row> rows;
-    for (const GatherMode& mode : gather_modes())
+    for (const GatherMode& mode : gather_modes()) {
+        if (view.cached_only && mode.mode != gather_mode_cached) continue;
         for (uint k : neighbours_of(mode, bench.quick)) {
             const GatherSettings gather{mode.mode, k, mode.shadow_rays};
-            const TimedFrame frame = on_device.render(seen.camera, {view.width, view.height, 3}, gather);
+            const uint frames = mode.mode == gather_mode_cached ? 15 : 3;  // milliseconds, or up to seconds
+            const TimedFrame frame = on_device.render(seen.camera, {view.width, view.height, frames}, gather);
             rows.push_back(mode_row(view, baked, mode, k, frame));
             if (mode.on_cpu) rows.back()["candidates_per_pixel"] = mean_candidates(baked, points, gather);
             add_error(rows.back(), error_of(frame.rendering.image, reference, Quantity::illuminance, border, gathered));
         }
+    }
     return rows;
 }
 
@@ -97,6 +101,7 @@ std::vector<Row> measure_case(const Bench& bench, const View& view, const BakedC
 std::vector<Row> measure_view(const Bench& bench, View view) {
     std::vector<Row> rows;
     for (bool direct_in_photons : {false, true}) {
+        if (direct_in_photons && view.cached_only) continue;
         BakeSettings bake;
         bake.photons = view.photons;
         bake.direct_in_photons = direct_in_photons;
@@ -133,12 +138,16 @@ std::vector<View> views_of(const Bench& bench) {
     const auto photons = bench.pick<uint64_t>(500'000, 4'000'000);
     const auto samples = bench.pick<uint64_t>(64, 128);
     const uint side = bench.pick(128u, 500u);
+    RoomSettings eight;
+    eight.lights = 8;
     std::vector<View> views;
     views.push_back({"cornell.gltf", "", load_gltf(bench.scenes / "cornell.gltf"), bench.pick(128u, 256u),
                      bench.pick(128u, 256u), photons, 4 * samples});
-    views.push_back({"room", "", make_room({}), side, side, photons, samples});
-    views.push_back({"apartment.glb", "living", load_gltf(bench.scenes / "apartment.glb"), bench.pick(160u, 240u),
-                     bench.pick(90u, 135u), photons, bench.pick<uint64_t>(64, 1024)});
+    views.push_back({"room", "", make_room({}), side, side, photons, bench.pick<uint64_t>(64, 512)});
+    views.push_back({"room, 8 lamps", "", make_room(eight), side, side, photons, samples, true});
+    views.push_back({"room", "", make_room({}), bench.pick(160u, 1280u), bench.pick(90u, 720u), photons, 64, true});
+    views.push_back({"apartment.glb", "living", load_gltf(bench.scenes / "apartment.glb"), bench.pick(160u, 320u),
+                     bench.pick(90u, 180u), photons, bench.pick<uint64_t>(64, 1024)});
     return views;
 }
 
@@ -153,7 +162,7 @@ std::vector<Table> measure_modes(const Bench& bench) {
     Table modes{"modes", "times", "Gather modes, medians of the device's timestamps." + errors, {}};
     Table convergence{"modes", "convergence", "Smooth gather, error against photons." + errors, {}};
     for (View& view : views_of(bench)) {
-        if (view.scene_name != "apartment.glb")
+        if (!view.cached_only && view.scene_name != "apartment.glb")
             for (Row& row : measure_convergence(bench, view)) convergence.rows.push_back(std::move(row));
         for (Row& row : measure_view(bench, std::move(view))) modes.rows.push_back(std::move(row));
     }
