@@ -8,7 +8,6 @@
 namespace lw {
 namespace {
 
-constexpr double wanted_ms = 66;
 constexpr float adapts_per_second = 3;
 
 float rounded_up(float value) {
@@ -70,10 +69,10 @@ std::optional<vec2> spread_of(const std::vector<Glance>& glance) {
     return vec2(values[values.size() / 2], values[values.size() * 95 / 100]);
 }
 
-uint Divisor::next(uint wanted, const FrameStatistics& last, bool still) {
+uint Divisor::next(uint wanted, const StageTimes& last, bool still) {
     if (wanted > 0) return wanted;
-    if (last.times.gather_ms > 0.1) whole_ms_ = last.times.sum() * last.times.divisor * last.times.divisor;
-    const uint needed = uint(std::clamp(std::ceil(std::sqrt(whole_ms_ / wanted_ms)), 1.0, double(most)));
+    if (last.gather_ms > 0.1 && last.rows == 0) whole_ms_ = last.sum() * last.divisor * last.divisor;
+    const uint needed = uint(std::clamp(std::ceil(std::sqrt(whole_ms_ / wanted_frame_ms)), 1.0, double(most)));
     now_ = still ? needed : std::max(now_, needed);
     return now_;
 }

@@ -4,6 +4,8 @@
 
 namespace lw {
 
+constexpr double wanted_frame_ms = 66;
+
 /// Moves exposure and range towards what the glance asks for, `seconds` after the last time.
 void adapt_to(Viewing& viewing, const std::vector<Glance>& glance, float seconds);
 
@@ -22,7 +24,7 @@ class Divisor {
     static constexpr uint most = 4;
 
     /// `wanted`: what the user chose, 0 for automatic. `still`: samples are adding up.
-    uint next(uint wanted, const FrameStatistics& last, bool still);
+    uint next(uint wanted, const StageTimes& last, bool still);
 
   private:
     uint now_ = most;

@@ -46,6 +46,7 @@ FrameTimes make_frame_of(const Device& device, Stage& stage, const Shot& shot, c
         times.passes.visibility_ms += pass.visibility_ms;
         times.passes.gather_ms += pass.gather_ms;
         times.passes.view_ms += pass.view_ms;
+        times.passes.divisor = pass.divisor;
     }
     times.all_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     return times;
@@ -79,8 +80,10 @@ std::string settings_text(const GatherSettings& gather, uint samples) {
 void print_rate(const std::vector<FrameTimes>& frames, const PlaySettings& settings) {
     double sum = 0, slowest = 0;
     for (const FrameTimes& f : frames) sum += f.all_ms, slowest = std::max(slowest, f.all_ms);
-    std::printf("%s, %ux%u\n", settings_text(settings.gather, settings.samples).c_str(), settings.size.width,
+    const uint divisor = frames.back().passes.divisor;
+    std::printf("%s, %ux%u", settings_text(settings.gather, settings.samples).c_str(), settings.size.width,
                 settings.size.height);
+    std::printf(divisor > 1 ? ", light at %ux%u\n" : "\n", settings.size.width / divisor, settings.size.height / divisor);
     std::printf("median of passes: visibility %.1f ms, gather %.1f ms, view %.1f ms\n",
                 median_of(frames, [](const FrameTimes& f) { return f.passes.visibility_ms; }),
                 median_of(frames, [](const FrameTimes& f) { return f.passes.gather_ms; }),
@@ -121,20 +124,25 @@ void play(const PlaySettings& settings) {
     viewing.exposure_ev = settings.exposure_ev.value_or(0);
     const auto count = size_t(path.seconds() * path.frames_per_second + 1.5);
     std::vector<FrameTimes> frames;
+    uint divisor = std::max(1u, settings.divisor);
     const auto make = [&](size_t i) {
         Shot shot;
         shot.camera = camera_on(path, double(i) / path.frames_per_second, world.scene);
         shot.lamps_a = factors;
         shot.gather = settings.gather;
         shot.most_samples = settings.samples;
+        shot.divisor = divisor;
         FrameTimes times = make_frame_of(device, stage, shot, {{}, viewing.exposure_ev});
         times.seconds = double(i) / path.frames_per_second;
         return times;
     };
     make(0);  // pipelines are made and the exposure is found before the clock runs
+    Divisor automatic;
+    if (settings.divisor == 0) divisor = automatic.next(0, make(0).passes, true);
     for (size_t i = 0; i < count; ++i) {
         adapt_to(viewing, stage.glance(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));
         frames.push_back(make(i));
+        if (settings.divisor == 0) divisor = automatic.next(0, frames.back().passes, false);
         if (!settings.frames.empty())
             write_png(frame_name(settings.frames, i), read_screen(device, stage, settings.size));
     }

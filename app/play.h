@@ -15,6 +15,7 @@ struct PlaySettings {
     GatherSettings gather;
     std::optional<float> exposure_ev;  // EV100; none: follows the picture
     uint samples = 1;                  // views averaged per frame
+    uint divisor = 1;                  // of the picture's sides; 0: as the window does in motion
 };
 
 /// Renders every frame of the path, one sample each unless `samples` says otherwise, and prints the rate. Frames are

@@ -45,7 +45,7 @@ struct Viewing {
     bool auto_range = true, logarithmic = false, lines = false;
     float low = 0, high = 500;
     GatherSettings gather;
-    uint most_samples = 128;
+    uint most_samples = 256;
     uint divisor = 0;          // of the resolution while moving; 0: by the time a frame takes
     bool wants_error = false;  // to be told the estimated error while the view is still
     bool reflections = false;  // outlines of bright reflections of lamps

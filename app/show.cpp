@@ -133,10 +133,11 @@ void Show::follow_picture(uint slot) {
 }
 
 void Show::record_stage(const OpenFrame& open) {
-    const uint divisor = divisor_.next(session_.viewing.divisor, session_.statistics, stage_->samples() > 1);
+    const uint divisor = divisor_.next(session_.viewing.divisor, session_.statistics.times, stage_->samples() > 1);
     Shot shot = shot_of(session_, divisor);
     if (!stage_->shows(shot, session_.viewing.view)) changed_ = last_;
     shot.sharpens = last_ - changed_ > sharpens_after_seconds;
+    shot.most_ms = wanted_frame_ms;
     estimate_error(shot, open.slot);
     stage_->record(open.commands, shot, look_of(session_, presenter_.swapchain().is_bgr()), open.slot);
 }

@@ -26,12 +26,13 @@ Frame frame_of_sample(const Camera& camera, vk::Extent2D size, uint index) {
     return frame;
 }
 
-ViewPush push_of(const Look& look, vk::Extent2D screen, vk::Extent2D picture, uint samples) {
+ViewPush push_of(const Look& look, vk::Extent2D screen, vk::Extent2D picture, uint samples, uint fresh_rows) {
     ViewPush push{};
     push.screen = uvec2(screen.width, screen.height);
     push.picture = uvec2(picture.width, picture.height);
-    push.scale_light = 1.0f / float(samples);
-    push.scale_other = is_inspection(look.kind.view) ? 1.0f : push.scale_light;
+    push.scale_light = 1.0f / float(std::max(samples, 1u));
+    push.scale_fresh = 1.0f / float(samples + 1);
+    push.fresh_rows = fresh_rows;
     push.exposure_ev = look.exposure_ev;
     push.low = look.low;
     push.high = look.high;
@@ -77,34 +78,50 @@ void Stage::record(vk::CommandBuffer commands, const Shot& shot, const Look& loo
     const bool draws =
         !same || sharpen || samples_ < (picture_size_ == live_->size() ? shot.most_samples : coarse_samples);
     if (!same || sharpen) {
-        samples_ = 0;
+        samples_ = fresh_rows_ = 0;
         picture_size_ = divided(live_->size(), sharpen ? 1 : shot.divisor);
     }
     const Timestamps& times = timestamps_[slot];
+    if (rows_[slot] > 0) ms_per_row_ = times.intervals_ms()[1] / rows_[slot];
+    rows_[slot] = 0;
     times.reset(commands);
     times.write(commands, 0);
     if (draws) {
-        live_->record_visibility(commands, frame_of_sample(shot.camera, picture_size_, samples_));
+        const Rows rows = next_rows(shot);
+        if (rows.first == 0) live_->record_visibility(commands, frame_of_sample(shot.camera, picture_size_, samples_));
         times.write(commands, 1);
-        record_lights(commands, shot, look);
+        record_lights(commands, shot, look, rows);
         drawn_ = {shot, look.kind.view};
-        ++samples_;
+        const bool whole = rows.end == picture_size_.height;
+        samples_ += whole ? 1 : 0;
+        fresh_rows_ = whole ? 0 : rows.end;
+        rows_[slot] = samples_ > 1 || !whole ? rows.end - rows.first : 0;
     } else {
         times.write(commands, 1);
     }
     times.write(commands, 2);
-    live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_), slot);
+    live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_, fresh_rows_),
+                       slot);
     times.write(commands, 3);
     views_[slot] = look.kind.view;
     timed_[slot] = std::max(1u, live_->size().width / picture_size_.width);
 }
 
-void Stage::record_lights(vk::CommandBuffer commands, const Shot& shot, const Look& look) {
+/// Of the next sample. The first sample of a view comes whole, of others as many rows as take shot.most_ms.
+Rows Stage::next_rows(const Shot& shot) const {
+    const uint height = picture_size_.height;
+    if (!(shot.most_ms > 0) || samples_ == 0 || picture_size_ != live_->size()) return {0, height};
+    const double rows = ms_per_row_ > 0 ? std::min(shot.most_ms / ms_per_row_, 1e6) : height / 8.0;
+    const uint groups = std::max(1u, uint(rows) / gather_group_side);
+    return {fresh_rows_, std::min(height, fresh_rows_ + groups * gather_group_side)};
+}
+
+void Stage::record_lights(vk::CommandBuffer commands, const Shot& shot, const Look& look, Rows rows) {
     using Side = LiveView::Side;
     constexpr uint lamps_a = 0, lamps_b = 1;
     resident_.set_light_factors(shot.lamps_a, lamps_a);
     const Frame frame = frame_of_sample(shot.camera, picture_size_, samples_);
-    live_->record_light(commands, frame, shot.gather, Side::a, lamps_a);
+    live_->record_light(commands, frame, shot.gather, Side::a, lamps_a, rows);
     if (is_inspection(look.kind.view)) {
         if (samples_ > 0) return;
         GatherSettings inspect = shot.gather;
@@ -112,7 +129,7 @@ void Stage::record_lights(vk::CommandBuffer commands, const Shot& shot, const Lo
         live_->record_light(commands, frame, inspect, Side::b, lamps_a);
     } else if (!shot.lamps_b.empty()) {
         resident_.set_light_factors(shot.lamps_b, lamps_b);
-        live_->record_light(commands, frame, shot.gather, Side::b, lamps_b);
+        live_->record_light(commands, frame, shot.gather, Side::b, lamps_b, rows);
     }
 }
 
@@ -127,8 +144,7 @@ std::vector<Glance> Stage::inspect(const Shot& shot, uint view, uint slot) {
     look.kind.view = view;
     submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
         live_->record_light(commands, frame_of_sample(shot.camera, picture_size_, 0), inspect, LiveView::Side::b);
-        live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, std::max(samples_, 1u)),
-                           slot);
+        live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_, fresh_rows_), slot);
     });
     return live_->glance(slot);
 }
@@ -136,7 +152,7 @@ std::vector<Glance> Stage::inspect(const Shot& shot, uint view, uint slot) {
 StageTimes Stage::times(uint slot) const {
     if (!timed_[slot]) return {};
     const std::vector<double> ms = timestamps_[slot].intervals_ms();
-    return {ms[0], ms[1], ms[2], timed_[slot]};
+    return {ms[0], ms[1], ms[2], timed_[slot], rows_[slot]};
 }
 
 }  // namespace lw

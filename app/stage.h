@@ -26,12 +26,14 @@ struct Shot {
     uint most_samples = 1;  // while nothing changes
     uint divisor = 1;       // of the picture's width and height while things change
     bool sharpens = true;   // to all pixels once nothing changes
+    double most_ms = 0;     // that one frame adds to a still picture, in bands of rows; 0: whole samples
 };
 
 /// Milliseconds of the passes of a frame, on the device's clock.
 struct StageTimes {
     double visibility_ms = 0, gather_ms = 0, view_ms = 0;
     uint divisor = 1;  // of the picture's sides
+    uint rows = 0;     // of a still picture that were added; 0: the first sample of a view
     double sum() const { return visibility_ms + gather_ms + view_ms; }
 };
 
@@ -64,7 +66,8 @@ class Stage {
     StageTimes times(uint slot) const;
     /// Values of what A shows (Rendering::image); waits for the device.
     Image read_values() const {
-        return live_->read_values(drawn_ ? drawn_->shot.camera : Camera(), picture_size_, std::max(samples_, 1u));
+        return live_->read_values(drawn_ ? drawn_->shot.camera : Camera(), picture_size_, std::max(samples_, 1u),
+                                  fresh_rows_);
     }
 
   private:
@@ -72,7 +75,8 @@ class Stage {
         Shot shot;
         uint inspected_view = view_shaded;
     };
-    void record_lights(vk::CommandBuffer commands, const Shot& shot, const Look& look);
+    Rows next_rows(const Shot& shot) const;
+    void record_lights(vk::CommandBuffer commands, const Shot& shot, const Look& look, Rows rows);
 
     const Device* device_;
     std::shared_ptr<const PhotonMap> map_;
@@ -80,10 +84,13 @@ class Stage {
     std::optional<LiveView> live_;
     std::optional<Drawn> drawn_;
     vk::Extent2D picture_size_;
-    uint samples_ = 0;
+    uint samples_ = 0;      // whole ones
+    uint fresh_rows_ = 0;   // have one sample more
+    double ms_per_row_ = 0;  // of the gather of a still picture; 0: not known
     std::array<Timestamps, 2> timestamps_;
     std::array<uint, 2> views_{};  // of each slot's frame
     std::array<uint, 2> timed_{};  // divisor of each slot's frame, 0: none yet
+    std::array<uint, 2> rows_{};   // of a still picture that each slot's frame added; 0: none, or the first sample
 };
 
 }  // namespace lw

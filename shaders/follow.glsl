@@ -35,7 +35,7 @@ PathNumbers path_numbers(uvec2 pixel, Following following, uint sample_index) LW
 /// The points on mesh lamps at the end of a path: apart for each, as one sequence for the facets and the lamps beyond would pair
 /// them.
 LampPoints points_at_end(uint seed, Following following) LW_MEMBER {
-    return first_points(hash_uint(seed + 0x9e3779b9u * (1u + following.branch + 2u * following.depth + 4u * following.path)));
+    return first_points(hash_uint(seed + 0x9e3779b9u * (1u + following.branch + 2u * following.depth + 8u * following.path)));
 }
 
 /// For the facet of the surface before which `surface` others were met: stratified over the paths at the first one, random
@@ -332,7 +332,7 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
     following.paths = 1u;
     PathNumbers numbers = path_numbers(pixel, following, 0u);
     PathEnd end = follow(first_ray(seen, branch, numbers), numbers, false);
-    for (uint depth = 0u; depth < 2u; ++depth) {
+    for (uint depth = 0u; depth < most_lobes; ++depth) {
         light.radiance += end.glow;
         Followed at = end.at;
         if (at.triangle == no_map) return;
@@ -344,11 +344,11 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
         light.radiance += at.weight * shown.radiance;
         if (depth == 0u && branch == branch_through && is_looked_through(seen)) light.irradiance += shown.irradiance;
         if ((at.flags & followed_goes_on) == 0u) return;
-        following.depth = 1u;
+        following.depth = depth + 1u;
         numbers = path_numbers(pixel, following, 0u);
         ViewRay ray = reflected_ray(far, vec3(0.0f), lobe_numbers(numbers, 0u));
         ray.weight *= at.weight;
-        end = follow(ray, numbers, true);
+        end = follow(ray, numbers, depth + 2u == most_lobes);
     }
 }
 

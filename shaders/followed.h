@@ -8,8 +8,10 @@ namespace lw {
 
 /// Surfaces that a followed view path meets at most: mirrors, both sides of glass, holes.
 LW_CONST uint most_followed_surfaces = 16u;
-/// A lobe that brings so much of what a surface shows is worth a second path.
+/// A lobe that brings so much of what a surface shows is worth a path of its own where a path ends ...
 LW_CONST float strong_lobe = 0.25f;
+/// ... until so many lobes were followed one after another.
+LW_CONST uint most_lobes = 4u;
 /// At rough glass, how often a path ends to gather the light of small lamps, beside how often it goes on.
 LW_CONST float least_part_here = 0.5f;
 
@@ -36,21 +38,22 @@ LW_CONST uint most_paths = 1024u;  // of a pixel, in one frame
 /// Which of the paths of a pixel is followed.
 struct Following {
     uint branch;
-    uint depth;  // 0: from what the pixel sees; 1: from where the path of depth 0 ended
+    uint depth;  // 0: from what the pixel sees; else from where the path of the depth before ended
     uint path;   // one of `paths`
     uint paths;
 };
-LW_INLINE uint pack_following(Following f) { return f.branch | f.depth << 1 | f.path << 2 | f.paths << 17; }
+LW_INLINE uint pack_following(Following f) { return f.branch | f.depth << 1 | f.path << 3 | f.paths << 17; }
 LW_INLINE Following unpack_following(uint bits) {
     Following f;
     f.branch = bits & 1u;
-    f.depth = (bits >> 1) & 1u;
-    f.path = (bits >> 2) & 0x7fffu;
+    f.depth = (bits >> 1) & 3u;
+    f.path = (bits >> 3) & 0x3fffu;
     f.paths = bits >> 17;
     return f;
 }
 
 #ifdef __cplusplus
+static_assert(most_lobes <= 4 && most_paths < 1 << 14);
 static_assert(sizeof(Followed) == 40 && offsetof(Followed, flags) == 36);
 }  // namespace lw
 #endif

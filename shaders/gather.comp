@@ -197,7 +197,7 @@ void follow_pixel(uint pixel) {
         ray = reflected_ray(see_followed(before), vec3(0.0f), lobe_numbers(numbers, 0u));
         ray.weight *= before.weight;
     }
-    PathEnd end = follow(ray, numbers, following.depth > 0u);
+    PathEnd end = follow(ray, numbers, following.depth + 1u == most_lobes);
     end.at.flags |= looked_at;
     followed[pixel] = end.at;
     if (luminance(end.glow) > 0.0f)

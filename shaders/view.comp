@@ -42,13 +42,13 @@ vec4 light_between(vec2 at, uint side) {
         uint q = pixel_at(base + ivec2(1, y));
         rows[y] = mix(light_of(p, side), light_of(q, side), f.x);
     }
-    return mix(rows[0], rows[1], f.y) * (side == 0u ? push.scale_light : push.scale_other);
+    return mix(rows[0], rows[1], f.y) * push.scale_light;
 }
 
 vec4 light_at_screen(vec2 at, uint side) {
     if (is_scaled) return light_between(at * vec2(push.picture) / vec2(push.screen), side);
     uint p = pixel_at(ivec2(at));
-    return light_of(p, side) * (side == 0u ? push.scale_light : push.scale_other);
+    return light_of(p, side) * (uint(at.y) < push.fresh_rows ? push.scale_fresh : push.scale_light);
 }
 
 ivec2 nearest_pixel(vec2 at) { return is_scaled ? ivec2(at * vec2(push.picture) / vec2(push.screen)) : ivec2(at); }

@@ -53,8 +53,9 @@ struct Glance {
 struct ViewPush {
     uvec2 screen;
     uvec2 picture;  // pixels; may be fewer than the screen's while moving
-    float scale_light;  // 1 / samples summed in A
-    float scale_other;
+    float scale_light;  // 1 / samples summed
+    float scale_fresh;  // the same in the first fresh_rows of the picture, which have one sample more
+    uint fresh_rows;
     float exposure_ev;
     float low;   // false colours from low to high
     float high;
@@ -125,7 +126,7 @@ LW_INLINE vec3 view_color(uint view, float value, float low, float high, bool lo
 }
 
 #ifdef __cplusplus
-static_assert(sizeof(Glance) == 16 && sizeof(ViewPush) == 52 && offsetof(ViewPush, bgr) == 48);
+static_assert(sizeof(Glance) == 16 && sizeof(ViewPush) == 56 && offsetof(ViewPush, bgr) == 52);
 }  // namespace lw
 #endif
 #endif

@@ -27,6 +27,8 @@ struct StagePipeline {
     bool of_followed;
 };
 
+}  // namespace
+
 ShaderConstants constants_for(const Resident& resident, const GatherSettings& settings) {
     ShaderConstants constants = resident.constants();
     constants[constant_gather_mode] = settings.mode;
@@ -38,8 +40,6 @@ ShaderConstants constants_for(const Resident& resident, const GatherSettings& se
         (resident.narrowest_lobe() < followed_roughness(settings) || constants[constant_looks_through]);
     return constants;
 }
-
-}  // namespace
 
 Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps) {
     frame.neighbours = std::max(1u, settings.neighbours);
@@ -80,21 +80,23 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
     has_branch_[branch_through] = constants[constant_looks_through];
 }
 
-void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps) const {
+void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps,
+                        Rows rows) const {
     const vk::DescriptorSet sets[] = {resident_->descriptors(lamps).handle(), picture.descriptors().handle()};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, {});
     commands.pushConstants<Frame>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, frame);
     if (rays_ || follow_) empty_lists(commands, picture, ray_pairs_ + (follow_ ? branch_count : 0));
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *photons_);
     const auto groups = [](uint pixels) { return (pixels + gather_group_side - 1) / gather_group_side; };
-    commands.dispatch(groups(frame.width), groups(frame.height), 1);
+    const uint first = rows.first / gather_group_side, end = groups(std::min(rows.end, frame.height));
+    commands.dispatchBase(0, first, 0, groups(frame.width), end - first, 1);
     if (sizes_) size_lists(commands);
     if (rays_) record_rays(commands, picture, *rays_);
     if (!follow_) return;
     const uint paths = unpack_following(frame.following).paths;
     for (uint branch = 0; branch < branch_count; ++branch)
         for (uint path = 0; has_branch_[branch] && path < paths; ++path)
-            for (uint depth = 0; depth < 2; ++depth) record_path(commands, picture, {branch, depth, path, paths});
+            for (uint depth = 0; depth < most_lobes; ++depth) record_path(commands, picture, {branch, depth, path, paths});
 }
 
 void GatherPass::empty_lists(vk::CommandBuffer commands, const Picture& picture, uint lists) const {

@@ -6,8 +6,16 @@
 
 namespace lw {
 
+/// What the pipelines of a gather are compiled with: what the scene and the settings need.
+ShaderConstants constants_for(const Resident& resident, const GatherSettings& settings);
+
 /// The push constants of a view with what its passes need of the scene, its lamps at a setting, and the settings.
 Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps = 0);
+
+/// Rows of a picture: [first, end), both multiples of gather_group_side but for the end of the picture.
+struct Rows {
+    uint first = 0, end = ~0u;
+};
 
 class GatherPass {
   public:
@@ -15,8 +23,9 @@ class GatherPass {
     GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings);
     /// Reads the visibility texture, writes the picture; for compute shaders and copies after a barrier.
     void record(vk::CommandBuffer commands, const Frame& frame) const { record(commands, frame, *picture_); }
-    /// The same into another picture of the same visibility texture, with the lamps at one of their settings.
-    void record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps = 0) const;
+    /// The same into some rows of another picture of the same visibility texture, with the lamps at one of their settings.
+    void record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps = 0,
+                Rows rows = {}) const;
 
   private:
     void empty_lists(vk::CommandBuffer commands, const Picture& picture, uint lists) const;

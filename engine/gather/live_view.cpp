@@ -32,7 +32,7 @@ GatherPass& LiveView::pass_for(const GatherSettings& settings) {
 }
 
 void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
-                            uint lamps) {
+                            uint lamps, Rows rows) {
     stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
     GatherSettings gather = settings;
     Frame sample = frame;
@@ -40,7 +40,8 @@ void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, cons
         if (frame.sample_index == 0) gather.followed_roughness = std::sqrt(smallest_alpha);
         if (frame.sample_index == 1) sample.sample_index = 0, sample.sample_weight *= 2;  // in the place of the first
     }
-    pass_for(gather).record(commands, with_gather(sample, *resident_, gather, lamps), side == Side::a ? a_ : b_, lamps);
+    pass_for(gather).record(commands, with_gather(sample, *resident_, gather, lamps), side == Side::a ? a_ : b_, lamps,
+                              rows);
 }
 
 void LiveView::record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {
@@ -49,7 +50,7 @@ void LiveView::record_view(vk::CommandBuffer commands, const ViewKind& kind, con
     stage_barrier(commands, Stage::eAllCommands, Stage::eTransfer | Stage::eHost);
 }
 
-Image LiveView::read_values(const Camera& camera, vk::Extent2D picture_size, uint samples) const {
+Image LiveView::read_values(const Camera& camera, vk::Extent2D picture_size, uint samples, uint fresh_rows) const {
     const std::vector<VisibleSample> whole = visibility_.read_samples();
     std::vector<VisibleSample> visible;
     for (uint y = 0; y < picture_size.height; ++y)
@@ -58,7 +59,8 @@ Image LiveView::read_values(const Camera& camera, vk::Extent2D picture_size, uin
     Image image = read_picture(*device_, resident_->scene(), camera, a_, picture_size, visible);
     for (Channel& channel : image.channels)
         if (channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "illuminance")
-            for (float& value : channel.values) value /= float(samples);
+            for (size_t i = 0; i < channel.values.size(); ++i)
+                channel.values[i] /= float(samples + (i < size_t(fresh_rows) * picture_size.width ? 1 : 0));
     return image;
 }
 

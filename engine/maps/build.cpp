@@ -197,15 +197,17 @@ std::vector<uint> find_coverage(const Scene& scene, const RayCaster& caster, con
         find_flat_coverage(scene, caster, map, m, shape, &nodes[lattice.first_node], &coverage[lattice.first_node],
                            others[m]);
     });
-    Neighbourhoods wanted(1.01f * radius);
+    WantedSamples wanted{partition.patches, partition.neighbours, std::vector<char>(partition.patches.count, 0),
+                         Neighbourhoods(1.01f * radius)};
     for (size_t m = 0; m < kept.size(); ++m) {
+        wanted.is_wanted[kept[m]] = !others[m].empty();
         const SurfaceLattice& lattice = map.grids[m].lattice;
         for (uint i : others[m])
-            wanted.add(point_on_lattice(map.grids[m], vec2(float(i % lattice.columns), float(i / lattice.columns)),
+            wanted.neighbourhoods.add(point_on_lattice(map.grids[m], vec2(float(i % lattice.columns), float(i / lattice.columns)),
                                         nodes[lattice.first_node + i].height));
     }
     const std::vector<Photon> samples =
-        sample_surfaces(scene, caster, partition.patches, wanted, 0.03f * radius * radius, clearance_of(radius));
+        sample_surfaces(scene, caster, wanted, 0.03f * radius * radius, clearance_of(radius));
     const References references = find_references({scene, samples, partition.patches, partition.shapes, partition.radii,
                                                    map.settings.neighbour_angle_deg, partition.neighbours, caster});
     sample_coverage(map, nodes, samples, references, kept, others, coverage);

@@ -147,10 +147,16 @@ bool Neighbourhoods::contain(vec3 point) const {
     return bits_[bit / 64] >> bit % 64 & 1;
 }
 
-std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const Patches& patches,
-                                    const Neighbourhoods& wanted, float area, float clearance) {
+bool WantedSamples::contain(size_t side, vec3 position) const {
+    const uint own = patches.at(side, position);
+    const auto near = neighbours.near(own, position);
+    return is_wanted[own] || std::any_of(near.begin(), near.end(), [&](uint patch) { return is_wanted[patch]; });
+}
+
+std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted, float area,
+                                    float clearance) {
     constexpr size_t chunk = 1024;
-    const std::vector<float> shares = areas_of_samples(scene, patches, area);
+    const std::vector<float> shares = areas_of_samples(scene, wanted.patches, area);
     std::vector<uint> counts(scene.triangles.size());
     double waiting = 0.5;
     for (size_t t = 0; t < counts.size(); ++t) {
@@ -168,10 +174,12 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
             for (uint i = 0; i < counts[t]; ++i) {
                 const vec2 place = sample_triangle(sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
                 const vec3 position = (1 - place.x - place.y) * p0 + place.x * p1 + place.y * p2;
-                if (!wanted.contain(position) ||
-                    is_overlaid(caster, position, normalize(product), uint(t)))
-                    continue;
+                if (!wanted.neighbourhoods.contain(position)) continue;
+                const bool wanted_sides[] = {wanted.contain(2 * t, position), wanted.contain(2 * t + 1, position)};
+                if (!wanted_sides[0] && !wanted_sides[1]) continue;
+                if (is_overlaid(caster, position, normalize(product), uint(t))) continue;
                 for (uint side = 0; side < 2; ++side) {
+                    if (!wanted_sides[side]) continue;
                     const vec3 n = product / (side ? -length(product) : length(product));
                     Rng rng(1, 2 * t + side, i);
                     if (is_buried(caster, position, n, clearance, rng)) continue;

@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "maps/flat_coverage.h"
 #include "maps/lattice.h"
+#include "maps/neighbours.h"
 #include "maps/references.h"
 #include "trace/ray_caster.h"
 
@@ -33,11 +34,22 @@ class Neighbourhoods {
     std::vector<uint64_t> bits_;  // one per cell, by its hash
 };
 
-/// Evenly spread points on both sides of all triangles, in the neighbourhoods only and without those that lie closer than
+/// What the samples of surfaces are for.
+struct WantedSamples {
+    const Patches& patches;
+    const Neighbours& neighbours;
+    std::vector<char> is_wanted;    // of each patch: whether it has nodes that need samples
+    Neighbourhoods neighbourhoods;  // of these nodes
+
+    /// False only when a sample there belongs to no patch that needs any.
+    bool contain(size_t side, vec3 position) const;
+};
+
+/// Evenly spread points on the sides of triangles, those that are wanted and without those that lie closer than
 /// `clearance` metres under another surface all around: no light gets there. As photons whose flux is their area: `area`
 /// m2, or as little as gives a small patch its share.
-std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const Patches& patches,
-                                    const Neighbourhoods& wanted, float area, float clearance);
+std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted, float area,
+                                    float clearance);
 
 /// Writes the coverage of some nodes of each map (nodes_of_map[m], counted from its first) from samples around them.
 /// `references` say which samples belong to which patch, by the same rule as photons; patch_of_map[m] is the patch of m.

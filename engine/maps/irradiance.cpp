@@ -32,7 +32,9 @@ class NodeLight : public PhotonEstimator {
           map_(map),
           nodes_(nodes),
           emitters_(scene),
-          lamps_(uint(scene.lights.size())) {}
+          lamps_(uint(scene.lights.size())),
+          has_meshes_(std::any_of(scene.lights.begin(), scene.lights.end(),
+                                  [](const Light& lamp) { return lamp.type == light_mesh; })) {}
 
     /// Writes light[lamp * all nodes + node] for the nodes of map m.
     void light_map(uint m, std::vector<vec3>& light) const {
@@ -44,7 +46,7 @@ class NodeLight : public PhotonEstimator {
                     for (uint c = 0; c < 3; ++c)
                         light[index(lamp, lattice.first_node + y * lattice.columns + x)][int(c)] =
                             reflected.row(3 * lamp + c, int(y))[x];
-        if (map_.has_visible_lamps()) add_direct(m, light);
+        if (map_.has_visible_lamps() && has_meshes_) add_direct(m, light);
     }
 
   private:
@@ -159,6 +161,7 @@ class NodeLight : public PhotonEstimator {
     const std::vector<NodePoint>& nodes_;
     Emitters emitters_;
     uint lamps_;
+    bool has_meshes_;
 };
 
 }  // namespace

@@ -39,9 +39,10 @@ class MapFinder {
     void find(const Photon& photon, std::vector<uint>& found) const {
         const uint own = in_.patches.at(2 * photon.triangle + photon.side(), photon.position);
         const std::span<const uint> near = in_.neighbours.near(own, photon.position);
+        if (near.empty()) return found.push_back(own | first_of_photon);
         const size_t first = found.size();
         const vec3 normal = normal_of(photon);
-        const bool stays = near.empty() || is_before_the_wall(photon.position, normal, own);
+        const bool stays = is_before_the_wall(photon.position, normal, own);
         if (stays) found.push_back(own | first_of_photon);
         for (uint patch : near)
             if (belongs(photon.position, normal, patch) && is_in_sight(photon.position, normal, patch))

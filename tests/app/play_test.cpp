@@ -40,6 +40,18 @@ TEST(Play, MakesThePicturesOfTheScreenshotProgramAndATableOfTimes) {
     EXPECT_FALSE(std::filesystem::exists(folder / "frames/frame-0004.png"));
     const std::string table = read_text(folder / "times.csv");
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4) << table;
+
+    const Outcome coarse = run("", {cornell(), map, "--play", folder / "path.json", "--frames", folder / "coarse", "--size",
+                                    "64x48", "--exposure", "5", "--divisor", "2"});
+    EXPECT_NE(coarse.out.find("64x48, light at 32x24"), std::string::npos) << coarse.out;
+    const Rgb8Image divided = read_png(folder / "coarse/frame-0001.png");
+    ASSERT_EQ(divided.rgb.size(), first.rgb.size());
+    double difference = 0;
+    for (size_t i = 0; i < first.rgb.size(); ++i)
+        difference += std::abs(int(first.rgb[i]) - int(divided.rgb[i])) / double(first.rgb.size());
+    EXPECT_GT(difference, 0.05);
+    EXPECT_LT(difference, 16) << "levels of 255";
+    EXPECT_EQ(run("", {cornell(), "--divisor", "5"}).exit_code, 2);
 }
 
 TEST(Play, HelpNamesUnitsAndDefaults) {

@@ -135,6 +135,39 @@ TEST(Stage, AddsUpSamplesWhileStillAndStartsAnewWhenTheLampsChange) {
     EXPECT_EQ(room.stage.samples(), 1u);
 }
 
+TEST(Stage, AddsASlowSampleInBandsAndThePictureIsTheSame) {
+    SKIP_WITHOUT_LAVAPIPE();
+    Room room;
+    room.shot.most_samples = 3;
+    const std::vector<uint32_t> first = room.frame({{}, 5});
+    const std::vector<uint32_t> second = room.frame({{}, 5});
+    const Image whole = room.stage.read_values();
+    room.stage.forget();
+    room.shot.most_ms = 1e-6;  // as few rows as there can be
+    EXPECT_EQ(room.frame({{}, 5}), first) << "the first sample comes whole";
+    std::vector<uint32_t> seen;
+    const uint bands = size.height / 8;
+    for (uint band = 0; band < bands; ++band) {
+        EXPECT_EQ(room.stage.samples(), 1u);
+        seen = room.frame({{}, 5});
+        if (band > 0) continue;
+        const std::vector<uint32_t> top(seen.begin(), seen.begin() + 8 * size.width),
+            bottom(seen.begin() + 16 * size.width, seen.end());
+        EXPECT_TRUE(std::equal(top.begin(), top.end(), second.begin()));
+        EXPECT_TRUE(std::equal(bottom.begin(), bottom.end(), first.begin() + 16 * size.width));
+        const std::vector<float> lux = room.stage.read_values().find("illuminance")->values;
+        EXPECT_TRUE(std::equal(lux.begin(), lux.begin() + 8 * size.width, whole.find("illuminance")->values.begin()));
+    }
+    EXPECT_EQ(room.stage.samples(), 2u);
+    EXPECT_EQ(seen, second);
+    EXPECT_EQ(room.stage.read_values().find("R")->values, whole.find("R")->values);
+    room.shot.camera.position.x += 0.1f;
+    room.frame({{}, 5});
+    room.frame({{}, 5});
+    room.shot.camera.position.x -= 0.1f;
+    EXPECT_EQ(room.frame({{}, 5}), first) << "what a band added to another view is gone";
+}
+
 TEST(Stage, InMotionHasFewerPixelsAndSharpensWhenStill) {
     SKIP_WITHOUT_LAVAPIPE();
     Room room;
@@ -186,12 +219,11 @@ TEST(Adapt, RangesAreRoundAndSignedOnesEven) {
 
 TEST(Adapt, DividesThePictureOnlyAsMuchAsItsTimeAsksAndGetsFinerOnlyWhenStill) {
     Divisor divisor;
-    FrameStatistics last;
-    last.times = {0, 600, 0};
+    StageTimes last{0, 600, 0};
     EXPECT_EQ(divisor.next(0, last, true), 4u);
-    last.times = {0, 10, 0, 4};
+    last = {0, 10, 0, 4};
     EXPECT_EQ(divisor.next(0, last, false), 4u) << "no change of size while moving";
-    last.times = {0, 20, 0};
+    last = {0, 20, 0};
     EXPECT_EQ(divisor.next(0, last, true), 1u);
     EXPECT_EQ(divisor.next(2, last, true), 2u) << "the user's choice";
 }

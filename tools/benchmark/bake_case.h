@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gather/gather_pass.h"
 #include "gather/renderer.h"
 #include "maps/estimate.h"
 #include "maps/photon_map.h"
@@ -75,6 +76,8 @@ class CaseOnDevice {
     CaseOnDevice(const Device& device, const BakedCase& baked);
     TimedFrame render(const Camera& camera, FrameSize frame, const GatherSettings& gather) const;
     uint64_t bytes() const { return resident_->bytes(); }
+    /// What the shaders of a gather are compiled with.
+    ShaderConstants constants(const GatherSettings& gather) const { return constants_for(*resident_, gather); }
     uint64_t bvh_bytes() const { return bvh_bytes_; }
 
   private:

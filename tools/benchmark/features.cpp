@@ -18,7 +18,34 @@ constexpr Variant variants[] = {{"Lambert, one panel", 1, Lamps::panels, Finish:
                                 {"Lambert, 30 panels", 30, Lamps::panels, Finish::lambert},
                                 {"Lambert, 30 points", 30, Lamps::points, Finish::lambert},
                                 {"glossy, one panel", 1, Lamps::panels, Finish::glossy},
-                                {"textured, one panel", 1, Lamps::panels, Finish::textured}};
+                                {"textured, one panel", 1, Lamps::panels, Finish::textured},
+                                {"sculptures of glass, one panel", 1, Lamps::panels, Finish::glass}};
+
+struct Constant {
+    uint place;
+    const char* name;
+};
+
+/// Specialization constants of what a scene may need.
+constexpr Constant constants[] = {{constant_has_uv0, "texture coordinates"},
+                                  {constant_has_textures, "textures"},
+                                  {constant_has_directions, "directions"},
+                                  {constant_has_transmission, "glass"},
+                                  {constant_has_caustics, "caustics"},
+                                  {constant_has_followed, "followed lobes"},
+                                  {constant_has_mesh_lamps, "glowing meshes"},
+                                  {constant_has_visible_lamps, "visible lamps"},
+                                  {constant_has_shadow_masks, "shadow masks"},
+                                  {constant_has_shadow_rays, "shadow rays"}};
+
+/// What the shader of a scene is compiled with.
+std::string variant_of(const CaseOnDevice& on_device) {
+    const ShaderConstants values = on_device.constants(default_gather());
+    std::string names;
+    for (const Constant& c : constants)
+        if (values[c.place]) names += (names.empty() ? "" : ", ") + std::string(c.name);
+    return names;
+}
 
 template <class T>
 size_t bytes_of_array(const std::vector<T>& values) {
@@ -31,6 +58,7 @@ void add_feature_bytes(Row& row, const BakedCase& baked, const CaseOnDevice& on_
     row["shadow_ray_bytes"] = on_device.bvh_bytes();
     row["texture_bytes"] = bytes_of_array(baked.scene.texels) + bytes_of_array(baked.scene.textures) +
                            bytes_of_array(baked.scene.uv0) + bytes_of_array(baked.scene.uv1);
+    row["caustic_bytes"] = baked.map.smooth_caustics.size() * sizeof(baked.map.smooth_caustics[0]);
     row["lamp_bytes"] = bytes_of_array(baked.scene.lights) + baked.scene.lights.size() * sizeof(LampPower);
 }
 
@@ -49,6 +77,7 @@ Row measure_variant(const Bench& bench, const Variant& variant) {
     const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster,
                                              {baked.scene.cameras[0], side, side, bench.pick<uint64_t>(32, 256)});
     Row row{{"room", variant.name},
+            {"shader", variant_of(on_device)},
             {"disk_bytes", baked.cost.file_bytes},
             {"device_bytes", frame.device_bytes},
             {"gather_ms", frame.rendering.times.gather_ms},

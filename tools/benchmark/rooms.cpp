@@ -130,6 +130,13 @@ void add_materials(Scene& scene, Finish finish) {
             scene.materials[m].specular = 1;
             scene.materials[m].roughness = 0.4f;
         }
+    if (finish == Finish::glass) {
+        Material& glass = scene.materials[sculpture];
+        glass.base_color = vec3(1);
+        glass.specular = glass.transmission = 1;
+        glass.roughness = 0;
+        glass.ior = 1.5f;
+    }
     if (finish == Finish::textured) scene.materials[walls].base_color_texture.texture = 0;
 }
 
