@@ -71,8 +71,14 @@ std::optional<vec2> spread_of(const std::vector<Glance>& glance) {
 
 uint Divisor::next(uint wanted, const StageTimes& last, bool still) {
     if (wanted > 0) return wanted;
-    if (last.gather_ms > 0.1 && last.rows == 0) whole_ms_ = last.sum() * last.divisor * last.divisor;
-    const uint needed = uint(std::clamp(std::ceil(std::sqrt(whole_ms_ / wanted_frame_ms)), 1.0, double(most)));
+    if (last.gather_ms > 0.1 && last.rows == 0) {
+        fixed_ms_ = last.visibility_ms + last.view_ms;
+        light_ms_ = last.gather_ms * last.divisor * last.divisor;
+    }
+    // A frame that is a little late is no reason for larger pixels, least of all while moving.
+    const double most_ms = (still ? 1.1 : 1.25) * wanted_frame_ms;
+    uint needed = 1;
+    while (needed < most && fixed_ms_ + light_ms_ / (needed * needed) > most_ms) ++needed;
     now_ = still ? needed : std::max(now_, needed);
     return now_;
 }

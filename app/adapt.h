@@ -17,8 +17,8 @@ vec2 range_of(std::vector<float> values, uint view, bool logarithmic);
 /// Median and 95th percentile of the values of a glance; none when nothing is seen.
 std::optional<vec2> spread_of(const std::vector<Glance>& glance);
 
-/// Chooses by how much the picture's sides are divided while moving, so that a frame takes 66 ms or less: coarser at
-/// any time, finer only after standing still, so that nothing flickers between sizes.
+/// Chooses by how much the picture's sides are divided while moving, so that a frame takes about 66 ms: coarser when
+/// one takes a quarter longer, finer only after standing still, so that nothing flickers between sizes.
 class Divisor {
   public:
     static constexpr uint most = 4;
@@ -28,7 +28,8 @@ class Divisor {
 
   private:
     uint now_ = most;
-    double whole_ms_ = 1e9;  // of a frame with all pixels; not known yet
+    double fixed_ms_ = 0,
+           light_ms_ = 1e9;  // of a frame: what does not follow the pixels, and the gather of all of them
 };
 
 }  // namespace lw

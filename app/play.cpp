@@ -83,7 +83,8 @@ void print_rate(const std::vector<FrameTimes>& frames, const PlaySettings& setti
     const uint divisor = frames.back().passes.divisor;
     std::printf("%s, %ux%u", settings_text(settings.gather, settings.samples).c_str(), settings.size.width,
                 settings.size.height);
-    std::printf(divisor > 1 ? ", light at %ux%u\n" : "\n", settings.size.width / divisor, settings.size.height / divisor);
+    std::printf(divisor > 1 ? ", light at %ux%u\n" : "\n", settings.size.width / divisor,
+                settings.size.height / divisor);
     std::printf("median of passes: visibility %.1f ms, gather %.1f ms, view %.1f ms\n",
                 median_of(frames, [](const FrameTimes& f) { return f.passes.visibility_ms; }),
                 median_of(frames, [](const FrameTimes& f) { return f.passes.gather_ms; }),

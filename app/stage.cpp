@@ -57,7 +57,8 @@ void Stage::resize(vk::Extent2D size) {
     live_.reset();
     live_.emplace(*device_, resident_, size);
     drawn_.reset();
-    timed_ = {};
+    timed_ = rows_ = {};
+    ms_per_row_ = 0;
 }
 
 bool Stage::shows(const Shot& shot, uint view) const {
@@ -100,8 +101,7 @@ void Stage::record(vk::CommandBuffer commands, const Shot& shot, const Look& loo
         times.write(commands, 1);
     }
     times.write(commands, 2);
-    live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_, fresh_rows_),
-                       slot);
+    live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_, fresh_rows_), slot);
     times.write(commands, 3);
     views_[slot] = look.kind.view;
     timed_[slot] = std::max(1u, live_->size().width / picture_size_.width);
@@ -144,7 +144,8 @@ std::vector<Glance> Stage::inspect(const Shot& shot, uint view, uint slot) {
     look.kind.view = view;
     submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
         live_->record_light(commands, frame_of_sample(shot.camera, picture_size_, 0), inspect, LiveView::Side::b);
-        live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_, fresh_rows_), slot);
+        live_->record_view(commands, look.kind, push_of(look, live_->size(), picture_size_, samples_, fresh_rows_),
+                           slot);
     });
     return live_->glance(slot);
 }

@@ -84,8 +84,8 @@ class Stage {
     std::optional<LiveView> live_;
     std::optional<Drawn> drawn_;
     vk::Extent2D picture_size_;
-    uint samples_ = 0;      // whole ones
-    uint fresh_rows_ = 0;   // have one sample more
+    uint samples_ = 0;       // whole ones
+    uint fresh_rows_ = 0;    // have one sample more
     double ms_per_row_ = 0;  // of the gather of a still picture; 0: not known
     std::array<Timestamps, 2> timestamps_;
     std::array<uint, 2> views_{};  // of each slot's frame

@@ -15,9 +15,9 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 
-/// Without shadow rays only mirrors are followed.
+/// Without shadow rays only mirrors are followed. Never more than 1: Resident::may_follow() counts with that.
 float followed_roughness(const GatherSettings& settings) {
-    return settings.shadow_rays > 0 ? settings.followed_roughness : std::sqrt(smallest_alpha);
+    return settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f) : std::sqrt(smallest_alpha);
 }
 
 /// A pipeline of the gather and what it does.
@@ -96,7 +96,8 @@ void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Pi
     const uint paths = unpack_following(frame.following).paths;
     for (uint branch = 0; branch < branch_count; ++branch)
         for (uint path = 0; has_branch_[branch] && path < paths; ++path)
-            for (uint depth = 0; depth < most_lobes; ++depth) record_path(commands, picture, {branch, depth, path, paths});
+            for (uint depth = 0; depth < most_lobes; ++depth)
+                record_path(commands, picture, {branch, depth, path, paths});
 }
 
 void GatherPass::empty_lists(vk::CommandBuffer commands, const Picture& picture, uint lists) const {

@@ -23,7 +23,8 @@ class GatherPass {
     GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings);
     /// Reads the visibility texture, writes the picture; for compute shaders and copies after a barrier.
     void record(vk::CommandBuffer commands, const Frame& frame) const { record(commands, frame, *picture_); }
-    /// The same into some rows of another picture of the same visibility texture, with the lamps at one of their settings.
+    /// The same into some rows of another picture of the same visibility texture, with the lamps at one of their
+    /// settings.
     void record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps = 0,
                 Rows rows = {}) const;
 
@@ -38,8 +39,8 @@ class GatherPass {
     const Picture* picture_;
     uint ray_pairs_;
     vk::UniquePipelineLayout layout_;
-    vk::UniquePipeline photons_, rays_;  // the latter where the scene has lamps
-    vk::UniquePipeline sizes_;           // where pixels are listed
+    vk::UniquePipeline photons_, rays_;                             // the latter where the scene has lamps
+    vk::UniquePipeline sizes_;                                      // where pixels are listed
     vk::UniquePipeline follow_, followed_photons_, followed_rays_;  // where view paths go on
     std::array<bool, branch_count> has_branch_{};
 };

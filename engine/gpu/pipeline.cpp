@@ -73,7 +73,9 @@ vk::UniquePipeline make_compute_pipeline(const Device& device, vk::PipelineLayou
     const Specialization special(constants);
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
                                                   special.get());
-    return device.handle().createComputePipelineUnique({}, {vk::PipelineCreateFlagBits::eDispatchBase, stage, layout}).value;
+    return device.handle()
+        .createComputePipelineUnique({}, {vk::PipelineCreateFlagBits::eDispatchBase, stage, layout})
+        .value;
 }
 
 vk::UniquePipeline make_raster_pipeline(const Device& device, vk::PipelineLayout layout, RasterShaders code,

@@ -22,8 +22,8 @@ namespace lw {
 namespace {
 
 constexpr float patch_size_in_radii = 6;  // size of a patch in search radii (study: 4 to 8)
-constexpr float nodes_apart = 0.5f;           // search radii between the nodes of a lattice
-constexpr double most_references = 2.3;       // per photon, what small patches are tightened to; 2.5 is promised
+constexpr float nodes_apart = 0.5f;       // search radii between the nodes of a lattice
+constexpr double most_references = 2.3;   // per photon, what small patches are tightened to; 2.5 is promised
 
 /// The grid in the frame of its patch; origin and sizes follow from its photons.
 SurfaceGrid frame_of(const PatchShape& shape, float radius) {
@@ -148,7 +148,8 @@ void append_cells(const std::vector<std::vector<uint>>& starts, size_t first_gri
     }
     if (cells >= no_map) throw Error("photon map: more than 2^32 cells; use fewer photons");
     map.cell_starts.reserve(cells + 1);
-    for (const std::vector<uint>& part : starts) map.cell_starts.insert(map.cell_starts.end(), part.begin(), part.end());
+    for (const std::vector<uint>& part : starts)
+        map.cell_starts.insert(map.cell_starts.end(), part.begin(), part.end());
     map.cell_starts.push_back(uint(map.places.size()));
 }
 
@@ -170,8 +171,8 @@ std::vector<uint> append_grids(const Scene& scene, const RayCaster& caster, cons
         SurfaceGrid& grid = map.grids[first_grid + m];
         grid = frame_of(partition.shapes[kept[m]], partition.radii[kept[m]]);
         const uint64_t first = references.starts[kept[m]], last = references.starts[kept[m] + 1];
-        starts[m] = fill_grid(grid, photons, {references.photons.data() + first, last - first}, uint(first_place + first),
-                              map);
+        starts[m] =
+            fill_grid(grid, photons, {references.photons.data() + first, last - first}, uint(first_place + first), map);
     });
     append_cells(starts, first_grid, map);
     map.grids.insert(map.grids.end(), cuts.begin(), cuts.end());
@@ -203,8 +204,9 @@ std::vector<uint> find_coverage(const Scene& scene, const RayCaster& caster, con
         wanted.is_wanted[kept[m]] = !others[m].empty();
         const SurfaceLattice& lattice = map.grids[m].lattice;
         for (uint i : others[m])
-            wanted.neighbourhoods.add(point_on_lattice(map.grids[m], vec2(float(i % lattice.columns), float(i / lattice.columns)),
-                                        nodes[lattice.first_node + i].height));
+            wanted.neighbourhoods.add(point_on_lattice(map.grids[m],
+                                                       vec2(float(i % lattice.columns), float(i / lattice.columns)),
+                                                       nodes[lattice.first_node + i].height));
     }
     const std::vector<Photon> samples =
         sample_surfaces(scene, caster, wanted, 0.03f * radius * radius, clearance_of(radius));

@@ -133,7 +133,8 @@ uint64_t Neighbourhoods::bit_of(vec3 cell) const {
 }
 
 void Neighbourhoods::add(vec3 point) {
-    const vec3 low = floor(point / radius_) - 1.0f, high = floor(point / radius_) + 1.0f;  // cells as wide as the radius
+    const vec3 low = floor(point / radius_) - 1.0f,
+               high = floor(point / radius_) + 1.0f;  // cells as wide as the radius
     for (float z = low.z; z <= high.z; ++z)
         for (float y = low.y; y <= high.y; ++y)
             for (float x = low.x; x <= high.x; ++x) {
@@ -153,8 +154,8 @@ bool WantedSamples::contain(size_t side, vec3 position) const {
     return is_wanted[own] || std::any_of(near.begin(), near.end(), [&](uint patch) { return is_wanted[patch]; });
 }
 
-std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted, float area,
-                                    float clearance) {
+std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted,
+                                    float area, float clearance) {
     constexpr size_t chunk = 1024;
     const std::vector<float> shares = areas_of_samples(scene, wanted.patches, area);
     std::vector<uint> counts(scene.triangles.size());

@@ -46,13 +46,14 @@ struct WantedSamples {
 };
 
 /// Evenly spread points on the sides of triangles, those that are wanted and without those that lie closer than
-/// `clearance` metres under another surface all around: no light gets there. As photons whose flux is their area: `area`
-/// m2, or as little as gives a small patch its share.
-std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted, float area,
-                                    float clearance);
+/// `clearance` metres under another surface all around: no light gets there. As photons whose flux is their area:
+/// `area` m2, or as little as gives a small patch its share.
+std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted,
+                                    float area, float clearance);
 
 /// Writes the coverage of some nodes of each map (nodes_of_map[m], counted from its first) from samples around them.
-/// `references` say which samples belong to which patch, by the same rule as photons; patch_of_map[m] is the patch of m.
+/// `references` say which samples belong to which patch, by the same rule as photons; patch_of_map[m] is the patch of
+/// m.
 void sample_coverage(const PhotonMap& map, const std::vector<NodePoint>& nodes, const std::vector<Photon>& samples,
                      const References& references, const std::vector<uint>& patch_of_map,
                      const std::vector<std::vector<uint>>& nodes_of_map, std::vector<CoverageLevels>& coverage);

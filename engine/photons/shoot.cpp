@@ -11,7 +11,7 @@
 namespace lw {
 namespace {
 
-constexpr uint64_t chunk_size = 1024;           // paths per task
+constexpr uint64_t chunk_size = 1024;  // paths per task
 constexpr size_t chunks_at_once = 128;
 constexpr uint64_t pilot_paths = 8192;          // per lamp, to learn what it stores
 constexpr uint64_t aim_paths = 131072;          // per sun, to learn where its light enters
@@ -102,7 +102,7 @@ Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSe
     photons.lights.resize(scene.lights.size());
     for (uint light = 0; light < emitted.size(); ++light) photons.lights[light].emitted = emitted[light];
     photons.records.reserve(size_t(1.02 * double(settings.photons)));  // about what comes; more is no error
-    Progress progress("photons", chunks.size());
+    Progress progress("photons", settings.photons);
     std::vector<std::vector<Photon>> buffers(chunks_at_once);  // used again and again: fresh memory costs time
     for (size_t first = 0; first < chunks.size(); first += chunks_at_once) {
         const size_t count = std::min(chunks_at_once, chunks.size() - first);
@@ -110,7 +110,7 @@ Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSe
             Chunk& chunk = chunks[first + i];
             chunk.photons.swap(buffers[i]);
             tracer.trace(chunk, double(emitted[chunk.light]));
-            progress.step();
+            progress.step(chunk.photons.size());
         });
         for (size_t i = 0; i < count; ++i) {
             Chunk& chunk = chunks[first + i];

@@ -41,8 +41,8 @@ TEST(Play, MakesThePicturesOfTheScreenshotProgramAndATableOfTimes) {
     const std::string table = read_text(folder / "times.csv");
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4) << table;
 
-    const Outcome coarse = run("", {cornell(), map, "--play", folder / "path.json", "--frames", folder / "coarse", "--size",
-                                    "64x48", "--exposure", "5", "--divisor", "2"});
+    const Outcome coarse = run("", {cornell(), map, "--play", folder / "path.json", "--frames", folder / "coarse",
+                                    "--size", "64x48", "--exposure", "5", "--divisor", "2"});
     EXPECT_NE(coarse.out.find("64x48, light at 32x24"), std::string::npos) << coarse.out;
     const Rgb8Image divided = read_png(folder / "coarse/frame-0001.png");
     ASSERT_EQ(divided.rgb.size(), first.rgb.size());
@@ -92,7 +92,8 @@ TEST(Play, PassesThroughItsKeysAndTurnsTheShorterWay) {
     EXPECT_LT(length(camera_on(path, 99, scene).position + vec3(scene.origin) - vec3(9, 1, -3)), 1e-5f);
 }
 
-/// A walker of 30 cm could go where the walk of the sample room goes, at the height of the eyes, of a table and of a seat.
+/// A walker of 30 cm could go where the walk of the sample room goes, at the height of the eyes, of a table and of a
+/// seat.
 TEST(Play, TheWalkOfTheSampleRoomPassesNoWall) {
     const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/apartment.glb");
     const RayCaster caster(scene);

@@ -219,13 +219,25 @@ TEST(Adapt, RangesAreRoundAndSignedOnesEven) {
 
 TEST(Adapt, DividesThePictureOnlyAsMuchAsItsTimeAsksAndGetsFinerOnlyWhenStill) {
     Divisor divisor;
-    StageTimes last{0, 600, 0};
+    StageTimes last{0, 700, 0};
     EXPECT_EQ(divisor.next(0, last, true), 4u);
     last = {0, 10, 0, 4};
     EXPECT_EQ(divisor.next(0, last, false), 4u) << "no change of size while moving";
     last = {0, 20, 0};
     EXPECT_EQ(divisor.next(0, last, true), 1u);
     EXPECT_EQ(divisor.next(2, last, true), 2u) << "the user's choice";
+    last = {40, 110, 6};
+    EXPECT_EQ(divisor.next(0, last, true), 3u);
+    last = {20, 105, 6};
+    EXPECT_EQ(divisor.next(0, last, true), 2u);
+    last = {20, 8, 6, 2};
+    EXPECT_EQ(divisor.next(0, last, true), 1u) << "the gather of all pixels takes four times as long";
+    last = {30, 45, 6};
+    EXPECT_EQ(divisor.next(0, last, false), 1u) << "a little late";
+    last.gather_ms = 60;
+    EXPECT_EQ(divisor.next(0, last, false), 2u);
+    last = {20, 500, 6, 1, 64};
+    EXPECT_EQ(divisor.next(0, last, true), 2u) << "a band of a still picture tells nothing of motion";
 }
 
 }  // namespace

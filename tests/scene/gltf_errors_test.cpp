@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "scene/gltf_text.h"
 
 namespace lw::test {
@@ -12,27 +9,20 @@ std::string message(const GltfText& g) {
     return error_of([&] { g.load(); });
 }
 
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 constexpr const char* white_png =  // 1 x 1, base64
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4//8/AAX+Av4N70a4AAAAAElFTkSuQmCC";
 
-/// The square as a GLB: a JSON chunk and a BIN chunk.
-std::string square_glb(const Json& images = Json()) {
+/// Whether a square bent by `bend` is refused with these words.
+template <class Bend>
+void expect_refused(const char* words, const Bend& bend) {
     GltfText g = square();
-    if (!images.is_null()) g.doc["images"] = images;
-    while (g.bytes.size() % 4) g.bytes.push_back(0);
-    g.doc["buffers"] = {{{"byteLength", g.bytes.size()}}};
-    std::string json = g.doc.dump();
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    const auto word = [](size_t value) {
-        return std::string{char(value & 255), char(value >> 8 & 255), char(value >> 16 & 255), char(value >> 24)};
-    };
-    return "glTF" + word(2) + word(28 + json.size() + g.bytes.size()) + word(json.size()) + "JSON" + json +
-           word(g.bytes.size()) + std::string("BIN\0", 4) + std::string(g.bytes.begin(), g.bytes.end());
+    bend(g);
+    EXPECT_NE(message(g).find(words), std::string::npos) << words << ": " << message(g);
+}
+
+void add_material(GltfText& g, const Json& material) {
+    g.doc["materials"] = Json::array({material});
+    g.primitive()["material"] = 0;
 }
 
 }  // namespace
@@ -49,13 +39,6 @@ TEST(GltfErrors, UsedExtensionThatChangesTheLookIsToldOnce) {
     const Scene s = g.load();
     ASSERT_EQ(s.warnings.size(), 1u);
     EXPECT_NE(s.warnings[0].find("KHR_materials_clearcoat"), std::string::npos);
-}
-
-TEST(GltfErrors, AnUnreadableImageOfAGlbIsNoReasonToRefuseIt) {
-    const std::string glb = square_glb(Json::array({{{"uri", "data:image/png;base64,!!!!"}}}));
-    Scene s;
-    EXPECT_EQ(error_of([&] { s = load_gltf(GltfText::write(glb, "room.glb")); }), "");
-    EXPECT_EQ(s.triangles.size(), 2u);
 }
 
 TEST(GltfErrors, TooFarForFloats) {
@@ -125,100 +108,6 @@ TEST(GltfErrors, PositionThatIsNotFinite) {
     }
 }
 
-TEST(GltfErrors, UrisStayInTheFolder) {
-    GltfText g = square();
-    const auto outside = GltfText::write("", "room.gltf").parent_path().parent_path() / "lumenwalk_outside.bin";
-    std::ofstream(outside, std::ios::binary).write(reinterpret_cast<const char*>(g.bytes.data()), long(g.bytes.size()));
-    for (const std::string& uri :
-         {std::string("../lumenwalk_outside.bin"), std::string("%2e%2e/lumenwalk_outside.bin"), outside.string(),
-          "file://" + outside.string(), std::string("..\\lumenwalk_outside.bin"), std::string("c:a.bin")}) {
-        Json doc = g.doc;
-        doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", uri}}};
-        const std::string told = error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); });
-        EXPECT_NE(told.find("is not inside the folder of the file"), std::string::npos) << uri << ": " << told;
-        GltfText profile = square();
-        profile.doc["extensionsUsed"].push_back("EXT_lights_ies");
-        profile.doc["extensions"]["EXT_lights_ies"]["lights"] = {{{"uri", uri}}};
-        profile.node()["extensions"]["EXT_lights_ies"]["light"] = 0;
-        EXPECT_NE(message(profile).find("is not inside the folder of the file"), std::string::npos) << message(profile);
-    }
-    std::filesystem::remove(outside);
-    Json doc = g.doc;
-    doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "$(touch x).bin"}}};  // no shell is asked
-    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
-    EXPECT_FALSE(std::filesystem::exists("x"));
-}
-
-TEST(GltfErrors, AFileThatCannotBeReadIsNamed) {
-    EXPECT_EQ(error_of([] { load_gltf("/nowhere/room.glb"); }), "/nowhere/room.glb: cannot be opened");
-    EXPECT_EQ(error_of([] { load_gltf("/"); }), "/: cannot be opened");
-    const std::string shorter = "/sys/kernel/mm/transparent_hugepage/enabled";  // than the 4096 bytes it claims
-    if (std::filesystem::exists(shorter)) {
-        EXPECT_EQ(error_of([&] { load_gltf(shorter); }), shorter + ": cannot be read");
-    }
-    const auto large = GltfText::write("glTF", "large.glb");
-    std::filesystem::resize_file(large, uint64_t(1) << 32);  // sparse
-    EXPECT_NE(error_of([&] { load_gltf(large); }).find("larger than 4 GiB"), std::string::npos);
-    std::filesystem::remove(large);
-}
-
-TEST(GltfErrors, ExternalBufferBesideTheFile) {
-    GltfText g = square();
-    GltfText::write(std::string(g.bytes.begin(), g.bytes.end()), "room one.bin");
-    Json doc = g.doc;
-    doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "room%20one.bin"}}};
-    EXPECT_EQ(load_gltf(GltfText::write(doc.dump(), "room.gltf")).triangles.size(), 2u);
-}
-
-TEST(GltfErrors, NotGltfAtAll) {
-    const auto refused = [](const std::string& text, const char* named) {
-        const std::string told = error_of([&] { load_gltf(GltfText::write(text, "room.gltf")); });
-        EXPECT_NE(told.find(named), std::string::npos) << text << ": " << told;
-    };
-    for (const char* text : {"", "{", "hello"}) refused(text, "room.gltf: not valid JSON");
-    for (const char* text : {"[]", "{}", "null", "3"}) refused(text, "room.gltf: has no asset.version");
-    refused(R"({"asset": {"version": "1.0"}})", "room.gltf: is glTF 1.0, not 2.0");
-    const std::string deep =
-        R"({"asset": {"version": "2.0"}, "extras": )" + std::string(100000, '[') + std::string(100000, ']') + "}";
-    EXPECT_EQ(error_of([&] { load_gltf(GltfText::write(deep, "room.gltf")); }), "room.gltf: JSON is nested too deeply");
-}
-
-TEST(GltfErrors, ABinaryFileCutAnywhereIsRefused) {
-    const std::string whole = square_glb();
-    ASSERT_EQ(load_gltf(GltfText::write(whole, "room.glb")).triangles.size(), 2u);
-    for (size_t length = 0; length < whole.size(); ++length) {
-        const std::string told = error_of([&] { load_gltf(GltfText::write(whole.substr(0, length), "room.glb")); });
-        EXPECT_NE(told.find(length < 4 ? "not valid JSON" : "truncated: " + std::to_string(length)), std::string::npos)
-            << length << ": " << told;
-    }
-}
-
-TEST(GltfErrors, ABinaryFileCutWithItsLengthRewrittenNeverCrashes) {
-    const std::string whole = square_glb();
-    for (size_t length = 20; length < whole.size(); ++length) {
-        std::string cut = whole.substr(0, length);
-        for (size_t k = 0; k < 4; ++k) cut[8 + k] = char(length >> (8 * k) & 255);
-        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(cut, "room.glb")); }), "") << length;
-    }
-}
-
-TEST(GltfErrors, AnyByteOfTheJsonChangedLoadsOrThrowsError) {
-    const std::string whole = square_glb();
-    for (size_t at = 20; at < whole.size(); ++at)
-        for (const char byte : {'9', '-', '\xff'}) {
-            std::string changed = whole;
-            changed[at] = byte;
-            error_of([&] { load_gltf(GltfText::write(changed, "room.glb")); });
-        }
-}
-
-TEST(GltfErrors, TheApartmentCutAtManyLengths) {
-    const std::string whole = bytes_of(LUMENWALK_SOURCE_DIR "/data/apartment.glb");
-    ASSERT_GT(whole.size(), 1000u);
-    for (size_t length : {size_t(3), size_t(19), size_t(21), size_t(5000), whole.size() / 2, whole.size() - 1})
-        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(whole.substr(0, length), "cut.glb")); }), "") << length;
-}
-
 TEST(GltfErrors, EveryIndexOutOfRangeIsNamed) {
     const auto refused = [](const char* named, const auto& bend) {
         GltfText g = square();
@@ -244,23 +133,15 @@ TEST(GltfErrors, EveryIndexOutOfRangeIsNamed) {
 }
 
 /// Each of these was found by taking its check away: no test failed.
-TEST(GltfErrors, WhatOnlyOneCheckRefusesIsNamed) {
-    const auto refused = [](const char* named, const auto& bend) {
-        GltfText g = square();
-        bend(g);
-        EXPECT_NE(message(g).find(named), std::string::npos) << named << ": " << message(g);
-    };
-    const auto with_material = [](GltfText& g, const Json& material) {
-        g.doc["materials"] = Json::array({material});
-        g.primitive()["material"] = 0;
-    };
-    refused("byteStride is smaller than an element", [](GltfText& g) { g.doc["bufferViews"][0]["byteStride"] = 4; });
-    refused("indices must be unsigned scalars", [](GltfText& g) {
+TEST(GltfErrors, OfAccessorsIsNamed) {
+    expect_refused("byteStride is smaller than an element",
+                   [](GltfText& g) { g.doc["bufferViews"][0]["byteStride"] = 4; });
+    expect_refused("indices must be unsigned scalars", [](GltfText& g) {
         g.primitive()["indices"] = g.accessor(std::vector<float>{0, 1, 2}, "SCALAR", 5126);
     });
-    refused("differ in length", [](GltfText& g) { g.floats("NORMAL", {0, 0, 1}, "VEC3"); });
-    refused("has the wrong type", [](GltfText& g) { g.floats("NORMAL", {0, 1, 0, 1, 0, 1, 0, 1}, "VEC2"); });
-    refused("a sparse index is out of range", [](GltfText& g) {
+    expect_refused("differ in length", [](GltfText& g) { g.floats("NORMAL", {0, 0, 1}, "VEC3"); });
+    expect_refused("has the wrong type", [](GltfText& g) { g.floats("NORMAL", {0, 1, 0, 1, 0, 1, 0, 1}, "VEC2"); });
+    expect_refused("a sparse index is out of range", [](GltfText& g) {
         const int places = g.accessor(std::vector<uint32_t>{9}, "SCALAR", 5125);
         const int values = g.accessor(std::vector<float>{0, 0, 0}, "VEC3", 5126);
         const auto view = [&](int accessor) { return g.doc["accessors"][size_t(accessor)]["bufferView"]; };
@@ -268,7 +149,7 @@ TEST(GltfErrors, WhatOnlyOneCheckRefusesIsNamed) {
                                            {"indices", {{"bufferView", view(places)}, {"componentType", 5125}}},
                                            {"values", {{"bufferView", view(values)}}}};
     });
-    refused("sparse indices must be unsigned", [](GltfText& g) {
+    expect_refused("sparse indices must be unsigned", [](GltfText& g) {
         const int places = g.accessor(std::vector<int16_t>{1}, "SCALAR", 5122);
         const int values = g.accessor(std::vector<float>{0, 0, 0}, "VEC3", 5126);
         const auto view = [&](int accessor) { return g.doc["accessors"][size_t(accessor)]["bufferView"]; };
@@ -276,39 +157,45 @@ TEST(GltfErrors, WhatOnlyOneCheckRefusesIsNamed) {
                                            {"indices", {{"bufferView", view(places)}, {"componentType", 5122}}},
                                            {"values", {{"bufferView", view(values)}}}};
     });
-    refused("node 2: the transformation is not finite", [](GltfText& g) {
+}
+
+TEST(GltfErrors, OfNodesAndInstancesIsNamed) {
+    expect_refused("node 2: the transformation is not finite", [](GltfText& g) {
         g.node()["scale"] = {1e200, 1, 1};
         g.node()["children"] = {2};
         g.doc["nodes"].push_back({{"scale", {1e200, 1, 1}}});
     });
-    refused("EXT_mesh_gpu_instancing: instance 1 is not finite", [](GltfText& g) {
+    expect_refused("EXT_mesh_gpu_instancing: instance 1 is not finite", [](GltfText& g) {
         const float nan = std::numeric_limits<float>::quiet_NaN();
         const int places = g.accessor(std::vector<float>{0, 0, 0, nan, 0, 0}, "VEC3", 5126);
         g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
     });
-    refused("EXT_mesh_gpu_instancing: TRANSLATION has the wrong size", [](GltfText& g) {
+    expect_refused("EXT_mesh_gpu_instancing: TRANSLATION has the wrong size", [](GltfText& g) {
         const int places = g.accessor(std::vector<float>{0, 0}, "VEC2", 5126);
         g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
     });
-    refused("EXT_mesh_gpu_instancing: SCALE has the wrong size", [](GltfText& g) {
+    expect_refused("EXT_mesh_gpu_instancing: SCALE has the wrong size", [](GltfText& g) {
         const int places = g.accessor(std::vector<float>(6, 0), "VEC3", 5126);
         const int sizes = g.accessor(std::vector<float>(9, 1), "VEC3", 5126);
         g.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places}, {"SCALE", sizes}};
     });
-    refused("there is no sampler 9", [&](GltfText& g) {
+}
+
+TEST(GltfErrors, OfMaterialsIsNamed) {
+    expect_refused("there is no sampler 9", [](GltfText& g) {
         g.doc["images"] = {{{"uri", "data:image/png;base64," + std::string(white_png)}}};
         g.doc["textures"] = {{{"source", 0}, {"sampler", 9}}};
-        with_material(g, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+        add_material(g, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     });
-    refused("thicknessFactor must not be negative", [&](GltfText& g) {
-        with_material(g, {{"extensions", {{"KHR_materials_volume", {{"thicknessFactor", -1}}}}}});
+    expect_refused("thicknessFactor must not be negative", [](GltfText& g) {
+        add_material(g, {{"extensions", {{"KHR_materials_volume", {{"thicknessFactor", -1}}}}}});
     });
-    refused("attenuationDistance must be positive", [&](GltfText& g) {
-        with_material(
+    expect_refused("attenuationDistance must be positive", [](GltfText& g) {
+        add_material(
             g, {{"extensions", {{"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", -1}}}}}});
     });
-    refused("ior must be 0 or at least 1", [&](GltfText& g) {
-        with_material(g, {{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}});
+    expect_refused("ior must be 0 or at least 1", [](GltfText& g) {
+        add_material(g, {{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}});
     });
 }
 
@@ -340,55 +227,6 @@ TEST(GltfErrors, AMillionNodesDeepIsNoDeepRecursion) {
     EXPECT_EQ(message(g), "");
 }
 
-TEST(GltfErrors, MissingFilesAreNamed) {
-    GltfText g = square();
-    Json doc = g.doc;
-    doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "lost.bin"}}};
-    const std::string lost = error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); });
-    EXPECT_NE(lost.find("lost.bin"), std::string::npos) << lost;
-    doc["buffers"] = {{{"byteLength", g.bytes.size()}}};
-    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
-    doc.erase("buffers");
-    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
-    GltfText::write(std::string(g.bytes.begin(), g.bytes.end() - 1), "short.bin");
-    doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "short.bin"}}};
-    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
-    GltfText image = square();
-    image.doc["images"] = {{{"uri", "lost.png"}}};
-    image.doc["textures"] = {{{"source", 0}}};
-    image.doc["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
-    image.primitive()["material"] = 0;
-    const Scene s = image.load();
-    ASSERT_EQ(s.warnings.size(), 1u);
-    EXPECT_NE(s.warnings[0].find("image 0"), std::string::npos) << s.warnings[0];
-}
-
-TEST(GltfErrors, DataUrisCutAnywhereAreRefused) {
-    const GltfText g = square();
-    const std::string whole = "data:application/octet-stream;base64," + base64(g.bytes);
-    for (size_t length = 1; length + 4 < whole.size(); ++length) {
-        Json doc = g.doc;
-        doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", whole.substr(0, length)}}};
-        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "") << length;
-    }
-}
-
-TEST(GltfErrors, ABinaryFileWithAWrongHeader) {
-    const std::string whole = square_glb();
-    const auto refused = [&](size_t at, const std::string& bytes, const char* named) {
-        std::string changed = whole;
-        changed.replace(at, bytes.size(), bytes);
-        const std::string told = error_of([&] { load_gltf(GltfText::write(changed, "room.glb")); });
-        EXPECT_NE(told.find(named), std::string::npos) << at << ": " << told;
-    };
-    refused(0, "glTX", "not valid JSON");
-    refused(4, std::string("\1\0\0\0", 4), "GLB version 1");
-    refused(8, "\xff\xff\xff\xff", "truncated");
-    refused(12, "\xff\xff\xff\xff", "longer than the file");
-    refused(12, std::string(4, '\0'), "");
-    refused(16, "NOSJ", "");
-}
-
 TEST(GltfErrors, ClaimedElementsCostNothing) {
     GltfText g = square();
     g.doc["accessors"][0].erase("bufferView");
@@ -399,23 +237,6 @@ TEST(GltfErrors, ClaimedElementsCostNothing) {
 }
 
 /// One accessor of a million zeros, drawn by many nodes: 2e10 vertices from a file of a megabyte.
-TEST(GltfErrors, AShortFileCannotAskForAllMemory) {
-    GltfText g = square();
-    g.doc["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 1 << 20}});
-    g.doc["accessors"][0] = g.doc["accessors"].back();
-    g.primitive()["attributes"].erase("NORMAL");
-    g.primitive().erase("indices");
-    Json node = g.doc["nodes"][0];
-    for (int i = 0; i < 20'000; ++i) {
-        g.doc["nodes"].push_back(node);
-        g.doc["scenes"][0]["nodes"].push_back(2 + i);
-    }
-    EXPECT_NE(message(g).find("than 2^32"), std::string::npos) << message(g);
-    g.doc["scenes"][0]["nodes"] = Json::array({1});
-    for (int i = 0; i < 3000; ++i) g.doc["scenes"][0]["nodes"].push_back(2 + i);
-    EXPECT_NE(message(g).find("triangles take"), std::string::npos) << message(g);
-}
-
 TEST(GltfErrors, FactorsBeyondTheFloatsAreRefusedOrBounded) {
     GltfText g = square();
     g.primitive()["material"] = 0;

@@ -10,13 +10,12 @@
 namespace lw {
 namespace {
 
-/// Rays that photon tracing followed: one per stored photon, and one per path of a lamp whose direct photons are not
-/// stored. A lower bound: mirrors, escapes and pilots are not counted.
+/// Rays that photon tracing followed: one per stored photon, and one per path whose direct photon is not stored. A
+/// lower bound: mirrors, escapes after a bounce and pilots are not counted.
 double traced_rays(const BakedCase& baked) {
     double rays = double(baked.photons.records.size());
     if (baked.map.settings.direct_in_photons) return rays;
-    for (size_t i = 0; i < baked.scene.lights.size(); ++i)
-        if (baked.scene.lights[i].type != light_mesh) rays += double(baked.photons.lights[i].emitted);
+    for (const LightBalance& lamp : baked.photons.lights) rays += double(lamp.emitted);
     return rays;
 }
 

@@ -27,16 +27,12 @@ struct Constant {
 };
 
 /// Specialization constants of what a scene may need.
-constexpr Constant constants[] = {{constant_has_uv0, "texture coordinates"},
-                                  {constant_has_textures, "textures"},
-                                  {constant_has_directions, "directions"},
-                                  {constant_has_transmission, "glass"},
-                                  {constant_has_caustics, "caustics"},
-                                  {constant_has_followed, "followed lobes"},
-                                  {constant_has_mesh_lamps, "glowing meshes"},
-                                  {constant_has_visible_lamps, "visible lamps"},
-                                  {constant_has_shadow_masks, "shadow masks"},
-                                  {constant_has_shadow_rays, "shadow rays"}};
+constexpr Constant constants[] = {
+    {constant_has_uv0, "texture coordinates"},   {constant_has_textures, "textures"},
+    {constant_has_directions, "directions"},     {constant_has_transmission, "glass"},
+    {constant_has_caustics, "caustics"},         {constant_has_followed, "followed lobes"},
+    {constant_has_mesh_lamps, "glowing meshes"}, {constant_has_visible_lamps, "visible lamps"},
+    {constant_has_shadow_masks, "shadow masks"}, {constant_has_shadow_rays, "shadow rays"}};
 
 /// What the shader of a scene is compiled with.
 std::string variant_of(const CaseOnDevice& on_device) {

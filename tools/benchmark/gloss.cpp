@@ -1,5 +1,5 @@
-// Gloss, mirrors, glass and caustics: up to which roughness photons cannot show a lobe, and what the default mode costs and
-// errs in the rooms that have them.
+// Gloss, mirrors, glass and caustics: up to which roughness photons cannot show a lobe, and what the default mode costs
+// and errs in the rooms that have them.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,8 @@
 namespace lw {
 namespace {
 
-constexpr float roughnesses[] = {0, 0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.7f, 1};
-constexpr float all_lobes = 2;  // a roughness above all
+constexpr float roughnesses[] = {0, 0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.7f, 0.9f};
+constexpr float all_lobes = 1;  // all below it
 
 /// One room with one of its materials at a roughness, and how many paths a pixel the path tracer needs there.
 struct Room {
@@ -45,7 +45,9 @@ struct Size {
 class Measured {
   public:
     Measured(const Bench& bench, const Room& room, const Size& size, uint64_t photons)
-        : size_(size), baked_(scene_of(bench, room), settings_for(photons), bench.folder), device_(bench.device, baked_) {
+        : size_(size),
+          baked_(scene_of(bench, room), settings_for(photons), bench.folder),
+          device_(bench.device, baked_) {
         const ReferenceView view{baked_.scene.cameras[0], size.width, size.height, size.samples, false};
         reference_ = cached_reference(bench.folder, baked_.scene, *baked_.caster, view);
     }
@@ -88,8 +90,7 @@ std::vector<bool> Measured::caustic_pixels(const TimedFrame& frame) const {
     if (!has_caustics(baked_.scene, baked_.weights)) return lit;
     double mean = 0;
     for (float e : lux) mean += double(e) / double(lux.size());
-    const Caustics caustics(baked_.scene, *baked_.caster, baked_.weights,
-                            {2'000'000, 0.004f * baked_.scene.size()});
+    const Caustics caustics(baked_.scene, *baked_.caster, baked_.weights, {2'000'000, 0.004f * baked_.scene.size()});
     const SurfaceReader surfaces(baked_.scene);
     const Camera& camera = baked_.scene.cameras[0];
     for (size_t i = 0; i < lit.size(); ++i) {
@@ -107,8 +108,7 @@ std::vector<bool> Measured::caustic_pixels(const TimedFrame& frame) const {
 
 /// The error where only the floor is looked at, by photons alone and with the lobe followed.
 std::vector<Row> measure_threshold(const Bench& bench, float roughness) {
-    const Measured room(bench, {"glossy_floor.gltf", "polished", roughness, 0},
-                        {80, 60, bench.pick<uint64_t>(64, 400)},
+    const Measured room(bench, {"glossy_floor.gltf", "polished", roughness, 0}, {80, 60, bench.pick<uint64_t>(64, 400)},
                         bench.pick<uint64_t>(200'000, 4'000'000));
     const std::vector<bool> floor = room.pixels_of("polished");
     std::vector<Row> rows;
@@ -131,8 +131,7 @@ std::vector<Row> measure_threshold(const Bench& bench, float roughness) {
 }
 
 std::vector<Row> measure_room(const Bench& bench, const Room& described) {
-    const Measured room(bench, described,
-                        {120, 90, bench.pick<uint64_t>(64, described.samples)},
+    const Measured room(bench, described, {120, 90, bench.pick<uint64_t>(64, described.samples)},
                         bench.pick<uint64_t>(200'000, 4'000'000));
     std::vector<Row> rows;
     for (uint views : {1u, 8u, 64u, 256u}) {
@@ -158,22 +157,26 @@ std::vector<Row> measure_room(const Bench& bench, const Room& described) {
 }  // namespace
 
 std::vector<Table> measure_lobes(const Bench& bench) {
-    Table table{"lobes", "threshold",
-                "The polished floor of glossy_floor.gltf at several roughnesses: luminance of the floor's pixels against "
-                "the path tracer, its specular lobe estimated from photons or followed by rays.",
-                {}};
+    Table table{
+        "lobes",
+        "threshold",
+        "The polished floor of glossy_floor.gltf at several roughnesses: luminance of the floor's pixels against "
+        "the path tracer, its specular lobe estimated from photons or followed by rays.",
+        {}};
     for (float roughness : roughnesses)
         for (Row& row : measure_threshold(bench, roughness)) table.rows.push_back(std::move(row));
     return {table};
 }
 
 std::vector<Table> measure_gloss(const Bench& bench) {
-    Table rooms{"gloss", "rooms",
-                "Rooms of gloss, metal and glass in the default mode, luminance against the path tracer; caustic: pixels "
-                "that light from lamps by way of mirrors, glass and metal smoother than 0.35 alone brings more than half "
-                "the picture's mean illuminance, left out of the rest. "
-                "Times of all the views at rest that are added up, through pixel centres; the window adds up 256.",
-                {}};
+    Table rooms{
+        "gloss",
+        "rooms",
+        "Rooms of gloss, metal and glass in the default mode, luminance against the path tracer; caustic: pixels "
+        "that light from lamps by way of mirrors, glass and metal smoother than 0.35 alone brings more than half "
+        "the picture's mean illuminance, left out of the rest. "
+        "Times of all the views at rest that are added up, through pixel centres; the window adds up 256.",
+        {}};
     for (const Room& room :
          {Room{"glossy_floor.gltf", "polished", 0.05f, 1000}, Room{"glossy_floor.gltf", "polished", 0.2f, 1000},
           Room{"glossy_floor.gltf", "polished", 0.5f, 1000}, Room{"metal_sculpture.gltf", "gold", 0.1f, 5000},

@@ -155,7 +155,8 @@ std::vector<Table> measure_knn(const Bench& bench) {
         "figure6",
         "Figure 6: k = 50 nearest photons, one thread, queries at what the pixels of a 500x500 view see of "
         "walls and boxes; furnished room of 100,000 triangles, all light in photons. The same photons, queries "
-        "and rules for all; trees and hash grid keep a heap, the 2D grid selects once. Agreement with the 2D grid within "
+        "and rules for all; trees and hash grid keep a heap, the 2D grid selects once. Agreement with the 2D grid "
+        "within "
         "two steps of its 16-bit coordinates. The "
         "grid's build is the whole of the maps. Cells of the 3D hash grid are as wide as r_50 at mean density. With "
         "few photons the radius reaches the sculptures, about which a map decides once and a 3D search at each query: "

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "base/interrupt.h"
+#include "base/parallel.h"
 #include "document.h"
 #include "sections.h"
 
@@ -18,11 +18,13 @@ const lw::Section sections[] = {
     {"knn", "Figure 6: time of the k nearest photons against photon count, four structures", lw::measure_knn},
     {"table1", "Table 1: global 3D kd-tree against the maps of triangles", lw::measure_table1},
     {"modes", "gather modes: milliseconds, candidates, bytes, errors", lw::measure_modes},
+    {"convergence", "error against photons", lw::measure_convergence},
     {"scaling", "cost against photons, triangles, lights and pixels", lw::measure_scaling},
     {"equal-time", "the path tracer at equal time and at equal error", lw::measure_equal_time},
     {"features", "what many lamps, glossy materials and textures add", lw::measure_features},
     {"lobes", "a floor of several roughnesses, its lobe from photons or followed", lw::measure_lobes},
     {"gloss", "rooms of gloss, metal and glass", lw::measure_gloss},
+    {"work", "what a frame reads, counted; milliseconds at 1 TB/s", lw::measure_work},
     {"bake", "seconds of the bake's phases, photon tracing against raw rays", lw::measure_bake},
     {"cie171", "analytic cases of CIE 171:2006: measured illuminance beside the formula", lw::measure_cie171},
 };
@@ -93,8 +95,8 @@ void check_document(const Options& o) {
 
 /// The tables of a section as Markdown, with the machine and the time they took.
 std::string report_of(const std::vector<lw::Table>& tables, const lw::Row& conditions, double seconds) {
-    std::string text = "Measured on " + conditions["processor"].get<std::string>() + ", " + conditions["threads"].dump() +
-                       " threads, device " + conditions["device"].get<std::string>() +
+    std::string text = "Measured on " + conditions["processor"].get<std::string>() + ", " +
+                       conditions["threads"].dump() + " threads, device " + conditions["device"].get<std::string>() +
                        (conditions["quick"].get<bool>() ? ", --quick" : "") + ", in " +
                        std::to_string(std::lround(seconds)) + " s.\n\n";
     for (const lw::Table& table : tables) text += lw::to_markdown(table) + "\n";

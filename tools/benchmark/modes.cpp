@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "accuracy.h"
-#include "base/parallel.h"
+#include "counting_estimator.h"
 #include "rooms.h"
 #include "scene/camera.h"
 #include "scene/gltf.h"
@@ -12,34 +12,20 @@
 namespace lw {
 namespace {
 
-/// The estimator's text once more, over a photon_place that counts how often it is read.
-class CountingEstimator : public PhotonEstimator {
-  public:
-    using PhotonEstimator::PhotonEstimator;
-
-    PhotonPlace photon_place(uint i) const {
-        ++reads_;
-        return PhotonEstimator::photon_place(i);
-    }
-#include "shaders/gather.glsl"
-
-    /// Photons tested at a point. The exact search reads each accepted photon once more when it is added.
-    double candidates(const VisiblePoint& p) {
-        reads_ = 0;
-        const Gathered sum = gather_photons(place_on(p.map, p.surface.position), p.surface, p.geometric_normal,
-                                            p.shading_normal, p.to_view);
-        return double(reads_) - (gather_mode == gather_mode_exact ? double(sum.photons) : 0.0);
-    }
-
-  private:
-    mutable uint64_t reads_ = 0;
-};
+/// Photons tested at a point. The exact search reads each accepted photon once more when it is added.
+double candidates(const CountingEstimator& estimator, const VisiblePoint& p, bool exact) {
+    const uint64_t before = estimator.reads.photons;
+    const Gathered sum = estimator.gather_photons(estimator.place_on(p.map, p.surface.position), p.surface,
+                                                  p.geometric_normal, p.shading_normal, p.to_view);
+    return double(estimator.reads.photons - before) - (exact ? double(sum.photons) : 0.0);
+}
 
 double mean_candidates(const BakedCase& baked, const std::vector<VisiblePoint>& points, const GatherSettings& gather) {
-    CountingEstimator estimator(baked.scene, baked.map, baked.weights, gather);
+    const CountingEstimator estimator(baked.scene, baked.map, baked.weights, gather);
     double sum = 0;
     size_t count = 0;
-    for (size_t i = 0; i < points.size(); i += 17, ++count) sum += estimator.candidates(points[i]);
+    for (size_t i = 0; i < points.size(); i += 17, ++count)
+        sum += candidates(estimator, points[i], gather.mode == gather_mode_exact);
     return count ? sum / double(count) : 0;
 }
 
@@ -111,29 +97,6 @@ std::vector<Row> measure_view(const Bench& bench, View view) {
     return rows;
 }
 
-/// Error against photons at the default gather: the N^(-1/3) of a bandwidth that follows the density.
-std::vector<Row> measure_convergence(const Bench& bench, const View& view) {
-    std::vector<Row> rows;
-    for (uint64_t photons = view.photons / 64; photons <= view.photons; photons *= 4) {
-        BakeSettings bake;
-        bake.photons = photons;
-        const BakedCase baked(view.scene, bake, bench.folder);
-        const ReferenceView seen{find_camera(baked.scene, view.camera), view.width, view.height, view.samples};
-        const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster, seen);
-        const CaseOnDevice on_device(bench.device, baked);
-        for (uint k : {50u, 200u, 500u}) {
-            const TimedFrame frame =
-                on_device.render(seen.camera, {view.width, view.height, 1}, {gather_mode_smooth, k});
-            rows.push_back({{"scene", view.scene_name},
-                            {"photons", baked.photons.records.size()},
-                            {"k", k},
-                            {"total_ms", frame.total_ms()}});
-            add_error(rows.back(), error_of(frame.rendering.image, reference, Quantity::illuminance));
-        }
-    }
-    return rows;
-}
-
 std::vector<View> views_of(const Bench& bench) {
     const auto photons = bench.pick<uint64_t>(500'000, 4'000'000);
     const auto samples = bench.pick<uint64_t>(64, 128);
@@ -160,13 +123,10 @@ std::vector<Table> measure_modes(const Bench& bench) {
         "Mirrors and glass are left out: "
         "they keep no photons.";
     Table modes{"modes", "times", "Gather modes, medians of the device's timestamps." + errors, {}};
-    Table convergence{"modes", "convergence", "Smooth gather, error against photons." + errors, {}};
     for (View& view : views_of(bench)) {
-        if (!view.cached_only && view.scene_name != "apartment.glb")
-            for (Row& row : measure_convergence(bench, view)) convergence.rows.push_back(std::move(row));
         for (Row& row : measure_view(bench, std::move(view))) modes.rows.push_back(std::move(row));
     }
-    return {modes, convergence};
+    return {modes};
 }
 
 }  // namespace lw

@@ -35,8 +35,8 @@ namespace {
 
 constexpr size_t points_per_leaf = 10;
 constexpr uint64_t no_key = ~0ull;
-constexpr int first_ring = 2;       // 25 cells, which hold about 60 photons
-constexpr float surplus = 1.35f;    // photons looked at per photon wanted, so that few searches are repeated
+constexpr int first_ring = 2;     // 25 cells, which hold about 60 photons
+constexpr float surplus = 1.35f;  // photons looked at per photon wanted, so that few searches are repeated
 
 using Floats = float __attribute__((vector_size(16)));
 using Words = int __attribute__((vector_size(16)));
@@ -195,7 +195,8 @@ NearestPhotons::Entry* MapGridSearch::collect_run(const Disc& disc, uint first, 
         Words low, high;  // u and v of a photon, its height and lamp, then the next one's
         std::memcpy(&low, &map_.places[i], sizeof low);
         std::memcpy(&high, &map_.places[i + 2], sizeof high);
-        const Words uv = __builtin_shufflevector(low, high, 0, 2, 4, 6), h = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+        const Words uv = __builtin_shufflevector(low, high, 0, 2, 4, 6),
+                    h = __builtin_shufflevector(low, high, 1, 3, 5, 7);
         const Floats du = to_floats(uv & 0xffff) * grid.quantum.x - local.x,
                      dv = to_floats(uv >> 16 & 0xffff) * grid.quantum.y - local.y,
                      dh = to_floats(h & 0xffff) * grid.quantum.z + (grid.h_origin - local.z);

@@ -1,7 +1,7 @@
 // Exact k nearest photons by four structures, for Figure 6 and Table 1: the 2D grid of our maps, a 2D kd-tree per map,
 // a global 3D kd-tree and a 3D hash grid. All use the same rules: side and orientation (60 degrees, by the maps'
-// references or by a test), height above the surface, the radius of the map. Trees and hash grid keep a bounded max-heap,
-// without which they could not end early; the 2D grid knows from its cells how far to look, and selects once.
+// references or by a test), height above the surface, the radius of the map. Trees and hash grid keep a bounded
+// max-heap, without which they could not end early; the 2D grid knows from its cells how far to look, and selects once.
 // kd-trees are nanoflann's (Blanco & Rai 2014).
 #pragma once
 #include <memory>

@@ -10,8 +10,8 @@ enum class Tessellation {
 };
 
 enum class Finish {
-    lambert,  // no specular lobe anywhere
-    glossy,   // dielectric lobes of roughness 0.4 on every surface
+    lambert,   // no specular lobe anywhere
+    glossy,    // dielectric lobes of roughness 0.4 on every surface
     textured,  // Lambert, with a base colour texture on the shell of the room
     glass      // Lambert, the sculptures of clear glass
 };

@@ -81,7 +81,7 @@ void add_frame(Row& row, const TimedFrame& frame) {
 FrameError error_at_base_size(const Bench& bench, const BakedCase& baked, const TimedFrame& frame) {
     const uint side = base_side(bench);
     const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster,
-                                             {baked.scene.cameras[0], side, side, bench.pick<uint64_t>(16, 64)});
+                                             {baked.scene.cameras[0], side, side, bench.pick<uint64_t>(16, 32)});
     return error_of(frame.rendering.image, reference, Quantity::illuminance);
 }
 

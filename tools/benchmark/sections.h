@@ -26,11 +26,13 @@ struct Bench {
 std::vector<Table> measure_knn(const Bench& bench);
 std::vector<Table> measure_table1(const Bench& bench);
 std::vector<Table> measure_modes(const Bench& bench);
+std::vector<Table> measure_convergence(const Bench& bench);
 std::vector<Table> measure_scaling(const Bench& bench);
 std::vector<Table> measure_equal_time(const Bench& bench);
 std::vector<Table> measure_features(const Bench& bench);
 std::vector<Table> measure_lobes(const Bench& bench);
 std::vector<Table> measure_gloss(const Bench& bench);
+std::vector<Table> measure_work(const Bench& bench);
 std::vector<Table> measure_bake(const Bench& bench);
 std::vector<Table> measure_cie171(const Bench& bench);
 
