@@ -71,7 +71,7 @@ std::optional<vec2> spread_of(const std::vector<Glance>& glance) {
 
 uint Divisor::next(uint wanted, const StageTimes& last, bool still) {
     if (wanted > 0) return wanted;
-    if (last.gather_ms > 0.1 && last.rows == 0) {
+    if (last.drew && last.rows == 0) {
         fixed_ms_ = last.visibility_ms + last.view_ms;
         light_ms_ = last.gather_ms * last.divisor * last.divisor;
     }

@@ -48,10 +48,9 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--samples", o.play.samples, "with --play: views averaged per pixel")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
-    app.add_option(
-           "--divisor", o.play.divisor,
-           "with --play: of the picture's width and height, which are then drawn at full size; 0: as the window does "
-           "in motion, so that a frame takes 66 ms")
+    app.add_option("--divisor", o.play.divisor,
+                   "with --play: light is computed at the width and height divided by this (1 to 4) and drawn at full "
+                   "size; 0: as few pixels as keep a frame near 66 ms, as the window does in motion")
         ->check(CLI::Range(0, 4))
         ->capture_default_str();
     app.add_option("--exposure", o.play.exposure_ev, "with --play: EV100; default: follows the picture");

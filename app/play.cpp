@@ -18,9 +18,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct FrameTimes {
-    double seconds;  // of the path
-    StageTimes passes;
-    double all_ms;  // from the first command recorded to the last one done
+    double seconds;     // of the path
+    StageTimes passes;  // of all samples
+    StageTimes first;   // of the first
+    double all_ms;      // from the first command recorded to the last one done
 };
 
 double median(std::vector<double> values) {
@@ -47,6 +48,7 @@ FrameTimes make_frame_of(const Device& device, Stage& stage, const Shot& shot, c
         times.passes.gather_ms += pass.gather_ms;
         times.passes.view_ms += pass.view_ms;
         times.passes.divisor = pass.divisor;
+        if (i == 0) times.first = pass;
     }
     times.all_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     return times;
@@ -133,17 +135,18 @@ void play(const PlaySettings& settings) {
         shot.gather = settings.gather;
         shot.most_samples = settings.samples;
         shot.divisor = divisor;
+        shot.sharpens = false;
         FrameTimes times = make_frame_of(device, stage, shot, {{}, viewing.exposure_ev});
         times.seconds = double(i) / path.frames_per_second;
         return times;
     };
     make(0);  // pipelines are made and the exposure is found before the clock runs
     Divisor automatic;
-    if (settings.divisor == 0) divisor = automatic.next(0, make(0).passes, true);
+    if (settings.divisor == 0) divisor = automatic.next(0, make(0).first, true);
     for (size_t i = 0; i < count; ++i) {
         adapt_to(viewing, stage.glance(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));
         frames.push_back(make(i));
-        if (settings.divisor == 0) divisor = automatic.next(0, frames.back().passes, false);
+        if (settings.divisor == 0) divisor = automatic.next(0, frames.back().first, false);
         if (!settings.frames.empty())
             write_png(frame_name(settings.frames, i), read_screen(device, stage, settings.size));
     }

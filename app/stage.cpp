@@ -57,8 +57,8 @@ void Stage::resize(vk::Extent2D size) {
     live_.reset();
     live_.emplace(*device_, resident_, size);
     drawn_.reset();
-    timed_ = rows_ = {};
-    ms_per_row_ = 0;
+    timed_ = {};
+    bands_ = {};
 }
 
 bool Stage::shows(const Shot& shot, uint view) const {
@@ -76,15 +76,18 @@ bool Stage::is_finished(const Shot& shot) const {
 void Stage::record(vk::CommandBuffer commands, const Shot& shot, const Look& look, uint slot) {
     const bool same = shows(shot, look.kind.view);
     const bool sharpen = same && shot.sharpens && picture_size_ != live_->size();
-    const bool draws =
-        !same || sharpen || samples_ < (picture_size_ == live_->size() ? shot.most_samples : coarse_samples);
+    const bool stays_coarse = shot.sharpens && picture_size_ != live_->size();
+    const bool draws = !same || sharpen || samples_ < (stays_coarse ? coarse_samples : shot.most_samples);
     if (!same || sharpen) {
-        samples_ = fresh_rows_ = 0;
+        samples_ = fresh_rows_ = rows_at_once_ = 0;
+        ms_per_row_ = 0;
+        ++view_;
         picture_size_ = divided(live_->size(), sharpen ? 1 : shot.divisor);
     }
     const Timestamps& times = timestamps_[slot];
-    if (rows_[slot] > 0) ms_per_row_ = times.intervals_ms()[1] / rows_[slot];
-    rows_[slot] = 0;
+    Band& band = bands_[slot];
+    if (band.rows > 0 && band.view == view_) ms_per_row_ = times.intervals_ms()[1] / band.rows;
+    band = {0, view_, draws};
     times.reset(commands);
     times.write(commands, 0);
     if (draws) {
@@ -96,7 +99,7 @@ void Stage::record(vk::CommandBuffer commands, const Shot& shot, const Look& loo
         const bool whole = rows.end == picture_size_.height;
         samples_ += whole ? 1 : 0;
         fresh_rows_ = whole ? 0 : rows.end;
-        rows_[slot] = samples_ > 1 || !whole ? rows.end - rows.first : 0;
+        if (samples_ > 1 || !whole) band.rows = rows_at_once_ = rows.end - rows.first;
     } else {
         times.write(commands, 1);
     }
@@ -111,7 +114,8 @@ void Stage::record(vk::CommandBuffer commands, const Shot& shot, const Look& loo
 Rows Stage::next_rows(const Shot& shot) const {
     const uint height = picture_size_.height;
     if (!(shot.most_ms > 0) || samples_ == 0 || picture_size_ != live_->size()) return {0, height};
-    const double rows = ms_per_row_ > 0 ? std::min(shot.most_ms / ms_per_row_, 1e6) : height / 8.0;
+    double rows = rows_at_once_ > 0 ? rows_at_once_ : height / 16.0;
+    if (ms_per_row_ > 0) rows = std::min(shot.most_ms / ms_per_row_, 2 * rows);  // the next rows may cost more
     const uint groups = std::max(1u, uint(rows) / gather_group_side);
     return {fresh_rows_, std::min(height, fresh_rows_ + groups * gather_group_side)};
 }
@@ -153,7 +157,7 @@ std::vector<Glance> Stage::inspect(const Shot& shot, uint view, uint slot) {
 StageTimes Stage::times(uint slot) const {
     if (!timed_[slot]) return {};
     const std::vector<double> ms = timestamps_[slot].intervals_ms();
-    return {ms[0], ms[1], ms[2], timed_[slot], rows_[slot]};
+    return {ms[0], ms[1], ms[2], timed_[slot], bands_[slot].rows, bands_[slot].drew};
 }
 
 }  // namespace lw

@@ -33,7 +33,8 @@ struct Shot {
 struct StageTimes {
     double visibility_ms = 0, gather_ms = 0, view_ms = 0;
     uint divisor = 1;  // of the picture's sides
-    uint rows = 0;     // of a still picture that were added; 0: the first sample of a view
+    uint rows = 0;     // of a later sample of a still picture that were added; 0: the first sample, or nothing
+    bool drew = true;
     double sum() const { return visibility_ms + gather_ms + view_ms; }
 };
 
@@ -75,6 +76,11 @@ class Stage {
         Shot shot;
         uint inspected_view = view_shaded;
     };
+    struct Band {       // what a slot's frame added
+        uint rows = 0;  // as StageTimes
+        uint view = 0;
+        bool drew = false;
+    };
     Rows next_rows(const Shot& shot) const;
     void record_lights(vk::CommandBuffer commands, const Shot& shot, const Look& look, Rows rows);
 
@@ -86,11 +92,13 @@ class Stage {
     vk::Extent2D picture_size_;
     uint samples_ = 0;       // whole ones
     uint fresh_rows_ = 0;    // have one sample more
-    double ms_per_row_ = 0;  // of the gather of a still picture; 0: not known
+    uint rows_at_once_ = 0;  // in the last band; 0: none yet
+    double ms_per_row_ = 0;  // of the gather of this still picture; 0: not known
+    uint view_ = 0;          // counts pictures that begin anew
     std::array<Timestamps, 2> timestamps_;
     std::array<uint, 2> views_{};  // of each slot's frame
     std::array<uint, 2> timed_{};  // divisor of each slot's frame, 0: none yet
-    std::array<uint, 2> rows_{};   // of a still picture that each slot's frame added; 0: none, or the first sample
+    std::array<Band, 2> bands_{};
 };
 
 }  // namespace lw

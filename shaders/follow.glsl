@@ -310,7 +310,7 @@ PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
     return end;
 }
 
-/// A place that a path of depth 0 came to.
+/// A place that a path came to.
 Seen see_followed(Followed at) LW_MEMBER {
     Seen seen = see(at.triangle, at.barycentrics, at.eye);
     if ((at.flags & followed_leaves_lobe) != 0u) seen.surface.flags |= lobe_is_followed;

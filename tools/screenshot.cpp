@@ -62,7 +62,7 @@ void add_options(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--followed-roughness", o.followed_roughness,
                    "rays follow what surfaces smoother than this reflect; photons show it of the others")
-        ->check(CLI::Range(0.0f, 1.01f))
+        ->check(CLI::Range(0.0f, 1.0f))
         ->capture_default_str();
     app.add_option("--exposure", o.exposure, "EV100; default: from the picture")->check(lw::finite_number(-100, 100));
     app.add_option("--samples", o.samples, "views averaged per pixel")

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "base/error.h"
@@ -53,7 +54,7 @@ void Progress::step(uint64_t units) {
 
 void Progress::draw(uint64_t done, bool last) {
     if (board_) {
-        board_->set(what_, last ? 1.0 : double(done) / double(total_));
+        board_->set(what_, last ? 1.0 : std::min(1.0, double(done) / double(total_)));
         return;
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

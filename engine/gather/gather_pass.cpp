@@ -15,7 +15,7 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 
-/// Without shadow rays only mirrors are followed. Never more than 1: Resident::may_follow() counts with that.
+/// Without shadow rays only mirrors are followed. Never more than 1: Resident::may_follow() relies on it.
 float followed_roughness(const GatherSettings& settings) {
     return settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f) : std::sqrt(smallest_alpha);
 }
@@ -76,6 +76,8 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
         *wanted[i].pipeline = make_compute_pipeline(device, *layout_, gather_comp, own);
     });
     if (!follows) return;
+    const bool follows_lobes = followed_roughness(settings) > std::sqrt(smallest_alpha);  // not mirrors and glass alone
+    lobes_ = follows_lobes ? most_lobes : 1;
     has_branch_[branch_reflected] = resident.narrowest_lobe() < followed_roughness(settings);
     has_branch_[branch_through] = constants[constant_looks_through];
 }
@@ -96,7 +98,7 @@ void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Pi
     const uint paths = unpack_following(frame.following).paths;
     for (uint branch = 0; branch < branch_count; ++branch)
         for (uint path = 0; has_branch_[branch] && path < paths; ++path)
-            for (uint depth = 0; depth < most_lobes; ++depth)
+            for (uint depth = 0; depth < lobes_; ++depth)
                 record_path(commands, picture, {branch, depth, path, paths});
 }
 

@@ -43,6 +43,7 @@ class GatherPass {
     vk::UniquePipeline sizes_;                                      // where pixels are listed
     vk::UniquePipeline follow_, followed_photons_, followed_rays_;  // where view paths go on
     std::array<bool, branch_count> has_branch_{};
+    uint lobes_ = 0;  // one after another
 };
 
 }  // namespace lw

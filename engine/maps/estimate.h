@@ -17,7 +17,7 @@ struct GatherSettings {
     uint neighbours = 300;  // photons per estimate
     uint shadow_rays = 4;   // per emissive mesh; 0: none, shadows as sharp as the lattice, of lobes mirrors alone followed
     uint paths = 1;         // per pixel along lobes that are followed
-    float followed_roughness = widest_followed_roughness;  // lobes of surfaces smoother than this are followed by rays
+    float followed_roughness = widest_followed_roughness;  // lobes of surfaces smoother than this, at most 1, are followed
 };
 
 /// Photon estimate at surface points; read-only view, scene and map must outlive it.

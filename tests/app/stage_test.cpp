@@ -166,6 +166,11 @@ TEST(Stage, AddsASlowSampleInBandsAndThePictureIsTheSame) {
     room.frame({{}, 5});
     room.shot.camera.position.x -= 0.1f;
     EXPECT_EQ(room.frame({{}, 5}), first) << "what a band added to another view is gone";
+    room.shot.most_ms = 1e6;
+    room.frame({{}, 5});
+    EXPECT_EQ(room.stage.times(0).rows, 8u) << "the cost of another view says nothing of this one";
+    room.frame({{}, 5});
+    EXPECT_EQ(room.stage.times(0).rows, 16u) << "at most twice the rows of the band before";
 }
 
 TEST(Stage, InMotionHasFewerPixelsAndSharpensWhenStill) {

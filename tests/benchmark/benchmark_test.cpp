@@ -106,6 +106,8 @@ TEST(Document, TakesASectionBetweenItsLinesAndKeepsTheRest) {
               "head\n<!-- benchmark a -->\nnew a\n<!-- end of benchmark -->\nmiddle\n<!-- benchmark b -->\nnew b\n"
               "<!-- end of benchmark -->\nfoot\n");
     EXPECT_THROW(check_places(path, {"a", "c"}), Error);
+    std::ofstream(path) << "<!-- benchmark a -->\ntext\n<!-- benchmark b -->\n<!-- end of benchmark -->\n";
+    EXPECT_THROW(check_places(path, {"a"}), Error) << "the end is that of b";
     EXPECT_THROW(check_places(folder.path() / "none.md", {"a"}), Error);
 }
 

@@ -133,7 +133,7 @@ TEST(GltfErrors, EveryIndexOutOfRangeIsNamed) {
 }
 
 /// Each of these was found by taking its check away: no test failed.
-TEST(GltfErrors, OfAccessorsIsNamed) {
+TEST(GltfErrors, ABadAccessorIsNamed) {
     expect_refused("byteStride is smaller than an element",
                    [](GltfText& g) { g.doc["bufferViews"][0]["byteStride"] = 4; });
     expect_refused("indices must be unsigned scalars", [](GltfText& g) {
@@ -159,7 +159,7 @@ TEST(GltfErrors, OfAccessorsIsNamed) {
     });
 }
 
-TEST(GltfErrors, OfNodesAndInstancesIsNamed) {
+TEST(GltfErrors, ABadNodeOrInstanceIsNamed) {
     expect_refused("node 2: the transformation is not finite", [](GltfText& g) {
         g.node()["scale"] = {1e200, 1, 1};
         g.node()["children"] = {2};
@@ -181,7 +181,7 @@ TEST(GltfErrors, OfNodesAndInstancesIsNamed) {
     });
 }
 
-TEST(GltfErrors, OfMaterialsIsNamed) {
+TEST(GltfErrors, ABadMaterialIsNamed) {
     expect_refused("there is no sampler 9", [](GltfText& g) {
         g.doc["images"] = {{{"uri", "data:image/png;base64," + std::string(white_png)}}};
         g.doc["textures"] = {{{"source", 0}, {"sampler", 9}}};
@@ -236,7 +236,6 @@ TEST(GltfErrors, ClaimedElementsCostNothing) {
     }
 }
 
-/// One accessor of a million zeros, drawn by many nodes: 2e10 vertices from a file of a megabyte.
 TEST(GltfErrors, FactorsBeyondTheFloatsAreRefusedOrBounded) {
     GltfText g = square();
     g.primitive()["material"] = 0;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "accuracy.h"
+#include "maps/build.h"
 #include "rooms.h"
 #include "scene/gltf.h"
 #include "sections.h"
@@ -20,37 +21,37 @@ struct Subject {
 struct Series {
     const char* name;
     bool direct_in_photons;
-    uint mode;
-    double neighbours;  // at the most photons
-    double exponent;    // of the photons in the neighbours
+    uint mode, neighbours;
+    bool widens;  // the search radius follows N^(-1/6), so that an estimate has N^(2/3) photons; else N^(-1/2)
 };
 
 constexpr Series series[] = {
-    {"smooth, k as N^(2/3), photons hold all light", true, gather_mode_smooth, 2000, 2.0 / 3},
-    {"smooth, k = 500, photons hold all light", true, gather_mode_smooth, 500, 0},
-    {"cached, the default", false, gather_mode_cached, 300, 0},
+    {"smooth, radius as N^(-1/6), photons hold all light", true, gather_mode_smooth, 1'000'000, true},
+    {"smooth, k = 200, photons hold all light", true, gather_mode_smooth, 200, false},
+    {"cached, the default", false, gather_mode_cached, 300, false},
 };
 
 std::vector<Row> measure_series(const Bench& bench, const Subject& subject, const Series& wanted) {
-    const uint64_t most = bench.pick<uint64_t>(500'000, 4'000'000);
+    const uint64_t most = bench.pick<uint64_t>(500'000, 4'000'000), least = most / 64;
     std::vector<Row> rows;
-    for (uint64_t photons = most / 64; photons <= most; photons *= 4) {
+    for (uint64_t photons = least; photons <= most; photons *= 4) {
         BakeSettings bake;
         bake.photons = photons;
         bake.direct_in_photons = wanted.direct_in_photons;
+        if (wanted.widens)
+            bake.radius = automatic_radius(subject.scene, least) * std::pow(float(photons) / float(least), -1.0f / 6);
         const BakedCase baked(subject.scene, bake, bench.folder);
         const ReferenceView view{baked.scene.cameras[0], subject.side, subject.side, subject.samples};
         const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster, view);
         GatherSettings gather = default_gather();
         gather.mode = wanted.mode;
-        gather.neighbours =
-            uint(std::lround(wanted.neighbours * std::pow(double(photons) / double(most), wanted.exponent)));
+        gather.neighbours = wanted.neighbours;
         const TimedFrame frame =
             CaseOnDevice(bench.device, baked).render(view.camera, {view.width, view.height, 3}, gather);
         rows.push_back({{"scene", subject.name},
                         {"series", wanted.name},
                         {"photons", baked.photons.records.size()},
-                        {"k", gather.neighbours},
+                        {"radius_m", baked.map.settings.radius},
                         {"total_ms", frame.total_ms()}});
         add_error(rows.back(), error_of(frame.rendering.image, reference, Quantity::illuminance));
     }
@@ -66,9 +67,10 @@ std::vector<Table> measure_convergence(const Bench& bench) {
     Table table{
         "convergence",
         "photons",
-        "Error of illuminance against photons. An estimate from k of N photons converges as N^(-1/3) when k follows "
-        "N^(2/3), in the limit of many photons: noise falls as k^(-1/2), the blur of borders and shadows as the "
-        "radius squared or, at edges of shadows, as its root.",
+        "Error of illuminance against photons. The search radius of a bake follows N^(-1/2), so that frames cost the "
+        "same and shadows sharpen with N; the noise of an estimate stays. With a radius as N^(-1/6) an estimate has "
+        "N^(2/3) photons: its noise falls as N^(-1/3), as does the blur of smooth light; "
+        "edges blur over a width as N^(-1/6), and their RMSE falls as the root of it.",
         {}};
     for (const Subject& subject : subjects)
         for (const Series& wanted : series)

@@ -24,7 +24,7 @@ Place find_place(const std::filesystem::path& document, const std::string& text,
     const std::string first = "<!-- benchmark " + section + " -->\n", last = "<!-- end of benchmark -->\n";
     const size_t line = text.find(first);
     const size_t end = line == std::string::npos ? line : text.find(last, line);
-    if (end == std::string::npos)
+    if (end == std::string::npos || text.find("<!-- benchmark ", line + first.size()) < end)
         throw Error(document.string() + ": has no lines '<!-- benchmark " + section +
                     " -->' and '<!-- end of benchmark -->' to put the section between");
     return {line + first.size(), end};

@@ -7,7 +7,7 @@
 namespace lw {
 
 /// Throws Error naming the file and the first of `sections` for which it has no lines `<!-- benchmark SECTION -->` and,
-/// below, `<!-- end of benchmark -->`; before hours of work whose result shall stand there.
+/// below, `<!-- end of benchmark -->`. To be called before hours of measuring.
 void check_places(const std::filesystem::path& document, const std::vector<std::string>& sections);
 
 /// Puts `text` in the place of what stands between these lines, the rest of the file untouched. Throws Error as
