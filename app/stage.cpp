@@ -5,8 +5,6 @@
 namespace lw {
 namespace {
 
-constexpr uint coarse_samples = 4;  // of a picture with fewer pixels, until it sharpens
-
 bool same_camera(const Camera& a, const Camera& b) {
     return a.position == b.position && a.rotation == b.rotation && a.yfov == b.yfov && a.near == b.near;
 }
@@ -76,8 +74,7 @@ bool Stage::is_finished(const Shot& shot) const {
 void Stage::record(vk::CommandBuffer commands, const Shot& shot, const Look& look, uint slot) {
     const bool same = shows(shot, look.kind.view);
     const bool sharpen = same && shot.sharpens && picture_size_ != live_->size();
-    const bool stays_coarse = shot.sharpens && picture_size_ != live_->size();
-    const bool draws = !same || sharpen || samples_ < (stays_coarse ? coarse_samples : shot.most_samples);
+    const bool draws = !same || sharpen || samples_ < shot.most_samples;
     if (!same || sharpen) {
         samples_ = fresh_rows_ = rows_at_once_ = 0;
         ms_per_row_ = 0;

@@ -34,7 +34,7 @@ struct StageTimes {
     double visibility_ms = 0, gather_ms = 0, view_ms = 0;
     uint divisor = 1;  // of the picture's sides
     uint rows = 0;     // of a later sample of a still picture that were added; 0: the first sample, or nothing
-    bool drew = true;
+    bool drew = false;
     double sum() const { return visibility_ms + gather_ms + view_ms; }
 };
 

@@ -224,24 +224,26 @@ TEST(Adapt, RangesAreRoundAndSignedOnesEven) {
 
 TEST(Adapt, DividesThePictureOnlyAsMuchAsItsTimeAsksAndGetsFinerOnlyWhenStill) {
     Divisor divisor;
-    StageTimes last{0, 700, 0};
+    StageTimes last;
+    EXPECT_EQ(divisor.next(0, last, true), 4u) << "no frame has told anything yet";
+    last = {0, 700, 0, 1, 0, true};
     EXPECT_EQ(divisor.next(0, last, true), 4u);
-    last = {0, 10, 0, 4};
+    last = {0, 10, 0, 4, 0, true};
     EXPECT_EQ(divisor.next(0, last, false), 4u) << "no change of size while moving";
-    last = {0, 20, 0};
+    last = {0, 20, 0, 1, 0, true};
     EXPECT_EQ(divisor.next(0, last, true), 1u);
     EXPECT_EQ(divisor.next(2, last, true), 2u) << "the user's choice";
-    last = {40, 110, 6};
+    last = {40, 110, 6, 1, 0, true};
     EXPECT_EQ(divisor.next(0, last, true), 3u);
-    last = {20, 105, 6};
+    last = {20, 105, 6, 1, 0, true};
     EXPECT_EQ(divisor.next(0, last, true), 2u);
-    last = {20, 8, 6, 2};
+    last = {20, 8, 6, 2, 0, true};
     EXPECT_EQ(divisor.next(0, last, true), 1u) << "the gather of all pixels takes four times as long";
-    last = {30, 45, 6};
+    last = {30, 45, 6, 1, 0, true};
     EXPECT_EQ(divisor.next(0, last, false), 1u) << "a little late";
     last.gather_ms = 60;
     EXPECT_EQ(divisor.next(0, last, false), 2u);
-    last = {20, 500, 6, 1, 64};
+    last = {20, 500, 6, 1, 64, true};
     EXPECT_EQ(divisor.next(0, last, true), 2u) << "a band of a still picture tells nothing of motion";
 }
 
