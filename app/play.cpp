@@ -47,6 +47,7 @@ FrameTimes make_frame_of(const Device& device, Stage& stage, const Shot& shot, c
         times.passes.visibility_ms += pass.visibility_ms;
         times.passes.gather_ms += pass.gather_ms;
         times.passes.view_ms += pass.view_ms;
+        times.passes.divisor = pass.divisor;  // of the last: the picture that is shown
         if (i == 0) times.first = pass;
     }
     times.all_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -81,7 +82,7 @@ std::string settings_text(const GatherSettings& gather, uint samples) {
 void print_rate(const std::vector<FrameTimes>& frames, const PlaySettings& settings) {
     double sum = 0, slowest = 0;
     for (const FrameTimes& f : frames) sum += f.all_ms, slowest = std::max(slowest, f.all_ms);
-    const uint divisor = frames.back().first.divisor;
+    const uint divisor = frames.back().passes.divisor;
     std::printf("%s, %ux%u", settings_text(settings.gather, settings.samples).c_str(), settings.size.width,
                 settings.size.height);
     std::printf(divisor > 1 ? ", light at %ux%u\n" : "\n", settings.size.width / divisor,
