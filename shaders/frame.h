@@ -37,6 +37,7 @@ LW_CONST uint texel_binding_count = 21u;
 LW_CONST uint binding_lights = 21u;  // from here on storage buffers
 LW_CONST uint binding_emitters = 22u;
 LW_CONST uint scene_binding_count = 23u;
+LW_CONST uint binding_acceleration = 23u;  // where rays are traced by ray queries
 LW_CONST uint look_texels = 16u;
 LW_CONST uint texture_texels = 2u;
 
@@ -83,7 +84,8 @@ LW_CONST uint constant_of_followed = 28u;  // photons and rays at the ends of fo
 LW_CONST uint constant_first_cut = 29u;  // first of the cuts among the grids, no_map without any
 LW_CONST uint constant_first_caustic_map = 30u;  // grids from here on are of caustics
 LW_CONST uint constant_first_caustic_cut = 31u;
-LW_CONST uint constant_count = 32u;
+LW_CONST uint constant_first_see_through = 32u;  // with ray queries: first of the triangles that may let light through, or no_map
+LW_CONST uint constant_count = 33u;
 
 /// The dispatches of the gather: photons at all pixels, then rays at those that need any; where view paths go on, a dispatch
 /// that follows them, and photons and rays at their ends.

@@ -33,6 +33,7 @@ layout(constant_id = constant_has_profiles) const bool has_profiles = true;
 layout(constant_id = constant_first_cut) const uint first_cut = no_map;
 layout(constant_id = constant_first_caustic_map) const uint first_caustic_map = no_map;
 layout(constant_id = constant_first_caustic_cut) const uint first_caustic_cut = no_map;
+layout(constant_id = constant_first_see_through) const uint first_see_through = no_map;
 layout(constant_id = constant_stage) const uint stage = stage_photons;
 
 layout(set = 0, binding = binding_corners) uniform textureBuffer corners;

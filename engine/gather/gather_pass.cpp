@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "gather.comp.spv.h"
+#include "gather_queries.comp.spv.h"
 #include "gpu/commands.h"
 #include "size_lists.comp.spv.h"
 
@@ -69,11 +70,12 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
     if (follows) wanted.push_back({&follow_, stage_follow, false});
     if (follows) wanted.push_back({&followed_photons_, stage_photons, true});
     if (follows && has_rays) wanted.push_back({&followed_rays_, stage_rays, true});
+    const SpirV code = resident.queries_rays() ? SpirV(gather_queries_comp) : SpirV(gather_comp);
     parallel_for(wanted.size(), [&](size_t i) {  // a second each where the driver is slow
         ShaderConstants own = constants;
         own[constant_stage] = wanted[i].stage;
         own[constant_of_followed] = wanted[i].of_followed;
-        *wanted[i].pipeline = make_compute_pipeline(device, *layout_, gather_comp, own);
+        *wanted[i].pipeline = make_compute_pipeline(device, *layout_, code, own);
     });
     if (!follows) return;
     const bool follows_lobes = followed_roughness(settings) > std::sqrt(smallest_alpha);  // not mirrors and glass alone

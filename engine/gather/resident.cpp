@@ -14,7 +14,7 @@ uint descriptor_count(uint binding) {
     return binding == binding_places || binding == binding_fluxes || binding == binding_directions ? most_chunks : 1u;
 }
 
-std::vector<Binding> scene_bindings() {
+std::vector<Binding> scene_bindings(bool queries_rays) {
     const vk::ShaderStageFlags compute = vk::ShaderStageFlagBits::eCompute;
     const auto all = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | compute;
     std::vector<Binding> bindings;
@@ -25,6 +25,8 @@ std::vector<Binding> scene_bindings() {
             i < texel_binding_count ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
         bindings.push_back({i, type, descriptor_count(i), of_surfaces ? vk::ShaderStageFlags(all) : compute});
     }
+    if (queries_rays)
+        bindings.push_back({binding_acceleration, vk::DescriptorType::eAccelerationStructureKHR, 1, compute});
     return bindings;
 }
 
@@ -121,7 +123,8 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
       inverse_flux_scale_(1.0f / map.flux_scale),
       ray_epsilon_(scene.ray_epsilon()),
       scene_size_(scene.size()),
-      descriptors_{DescriptorSet(device, scene_bindings()), DescriptorSet(device, scene_bindings())} {
+      queries_rays_(device.ray_queries() && !bvh.nodes.empty()),
+      descriptors_{DescriptorSet(device, scene_bindings(queries_rays_)), DescriptorSet(device, scene_bindings(queries_rays_))} {
     if (scene.triangles.size() > 0xffffffffu / 3u)
         throw Error(scene.path.string() + ": more than " + std::to_string(0xffffffffu / 3u) + " triangles");
     if (!map.triangle_maps.empty() && map.triangle_maps.size() != map.sides_per_triangle() * scene.triangles.size())
@@ -244,10 +247,24 @@ void Resident::upload_map(const PhotonMap& map) {
 void Resident::upload_direct(const Scene& scene, const Bvh& bvh) {
     upload_records<Light>(binding_lights, scene.lights, "lights");
     upload_records<Emitter>(binding_emitters, scene.emitters, "emitters");
-    upload_texels<BvhNode>(binding_bvh_nodes, vk::Format::eR32G32B32A32Uint, bvh.nodes,
-                           "nodes of the shadow rays' hierarchy");
-    upload_texels<uint>(binding_bvh_triangles, vk::Format::eR32Uint, bvh.triangles,
+    upload_texels<BvhNode>(binding_bvh_nodes, vk::Format::eR32G32B32A32Uint,
+                           queries_rays_ ? std::span<const BvhNode>() : bvh.nodes, "nodes of the shadow rays' hierarchy");
+    upload_texels<uint>(binding_bvh_triangles, vk::Format::eR32Uint, queries_rays_ ? queried(bvh) : bvh.triangles,
                         "triangles of the shadow rays' hierarchy");
+}
+
+std::vector<uint> Resident::queried(const Bvh& bvh) {
+    std::vector<uint> entries = bvh.triangles;
+    const auto others = std::stable_partition(entries.begin(), entries.end(),
+                                              [](uint entry) { return (entry & bvh_see_through) == 0; });
+    std::vector<uvec3> corners;
+    corners.reserve(entries.size());
+    for (uint entry : entries) corners.push_back(scene_->triangles[entry & ~bvh_see_through]);
+    const auto opaque = size_t(others - entries.begin());
+    constants_[constant_first_see_through] = opaque < entries.size() ? uint(opaque) : no_map;
+    acceleration_.emplace(*device_, TracedTriangles{scene_->positions, corners, opaque});
+    for (const DescriptorSet& set : descriptors_) set.set_acceleration(binding_acceleration, acceleration_->handle());
+    return entries;
 }
 
 template <class T>
@@ -344,6 +361,7 @@ void Resident::write_cells(Lamps& lamps, std::span<const vec3> weights) const {
 uint64_t Resident::bytes() const {
     uint64_t sum = 0;
     for (const Buffer& buffer : buffers_) sum += buffer.size();
+    if (acceleration_) sum += acceleration_->bytes();
     for (const Lamps& lamps : lamps_) sum += lamps.powers.size() + lamps.cells.size();
     return sum;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "gpu/acceleration.h"
 #include "gpu/pipeline.h"
 #include "maps/cells.h"
 #include "scene/bvh.h"
@@ -45,6 +46,8 @@ class Resident {
     float narrowest_lobe() const { return narrowest_lobe_; }
     /// True when view paths may go on from what the eye sees.
     bool may_follow() const { return narrowest_lobe_ < 1 || constants_[constant_looks_through]; }
+    /// True when rays are traced by the device's ray queries.
+    bool queries_rays() const { return queries_rays_; }
     uint triangle_count() const { return triangle_count_; }
     /// Each cluster_triangles triangles, in their order.
     struct Cluster {
@@ -65,6 +68,8 @@ class Resident {
     void upload_corners(const Scene& scene);
     void upload_map(const PhotonMap& map);
     void upload_direct(const Scene& scene, const Bvh& bvh);
+    /// Builds what ray queries meet; its triangles, opaque ones first.
+    std::vector<uint> queried(const Bvh& bvh);
     /// The lamps at one setting: their powers, and the light of the cells at these.
     struct Lamps {
         std::vector<vec3> factors;
@@ -92,9 +97,11 @@ class Resident {
     float ray_epsilon_;
     float scene_size_;
     float narrowest_lobe_ = 1;
+    bool queries_rays_;
     std::array<DescriptorSet, 2> descriptors_;
     std::vector<Buffer> buffers_;
     std::vector<vk::UniqueBufferView> views_;
+    std::optional<Acceleration> acceleration_;
     std::optional<CellLight> cells_;
     std::array<Lamps, 2> lamps_;
 };

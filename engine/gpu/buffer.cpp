@@ -20,15 +20,20 @@ vk::UniqueDeviceMemory allocate(const Device& device, vk::MemoryRequirements nee
         place == Buffer::Place::host ? device.find_memory_type(needs.memoryTypeBits, host | Property::eHostCached) : -1;
     if (type < 0) type = device.find_memory_type(needs.memoryTypeBits, wanted);
     if (type < 0) throw Error(device.name() + ": has no suitable memory");
-    return device.handle().allocateMemoryUnique({needs.size, uint32_t(type)});
+    const vk::MemoryAllocateFlagsInfo addressed(vk::MemoryAllocateFlagBits::eDeviceAddress);
+    const void* next = place == Buffer::Place::traced ? &addressed : nullptr;
+    return device.handle().allocateMemoryUnique({needs.size, uint32_t(type), next});
 }
 
 vk::BufferUsageFlags usage_of(Buffer::Place place) {
     const auto copies = vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst;
-    return place == Buffer::Place::host
-               ? copies
-               : copies | vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer |
-                     vk::BufferUsageFlagBits::eIndirectBuffer;
+    if (place == Buffer::Place::host) return copies;
+    const auto read = copies | vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer |
+                      vk::BufferUsageFlagBits::eIndirectBuffer;
+    if (place == Buffer::Place::device) return read;
+    return read | vk::BufferUsageFlagBits::eShaderDeviceAddress |
+           vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR |
+           vk::BufferUsageFlagBits::eAccelerationStructureStorageKHR;
 }
 
 }  // namespace

@@ -9,7 +9,9 @@ namespace lw {
 /// Owns a buffer and its memory. Device-local ones can be bound as storage or texel buffers and copied to and from.
 class Buffer {
   public:
-    enum class Place { device, host };  // host: visible to the CPU and coherent, for staging
+    /// host: visible to the CPU and coherent, for staging; traced: on the device, what acceleration structures are made of
+    /// and lie in (Device::ray_queries())
+    enum class Place { device, host, traced };
 
     Buffer() = default;
     /// Throws Error naming `what` and its size when the device has not enough memory. bytes > 0.
@@ -17,6 +19,8 @@ class Buffer {
 
     vk::Buffer handle() const { return *buffer_; }
     vk::DeviceSize size() const { return size_; }
+    /// Of a traced buffer.
+    vk::DeviceAddress address(const Device& device) const { return device.handle().getBufferAddress(*buffer_); }
     /// Start of the bytes of a host buffer.
     void* mapped() const { return mapped_; }
 
@@ -37,10 +41,11 @@ vk::UniqueBufferView view_as_texels(const Device& device, const Buffer& buffer, 
 
 /// A device buffer with these values; one of 128 zero bytes when there are none, so that it can be bound.
 template <class T>
-Buffer upload(const Device& device, std::span<const T> values, const std::string& what) {
+Buffer upload(const Device& device, std::span<const T> values, const std::string& what,
+              Buffer::Place place = Buffer::Place::device) {
     static const char nothing[128] = {};
     const size_t bytes = values.size_bytes();
-    Buffer buffer(device, bytes ? bytes : sizeof nothing, what);
+    Buffer buffer(device, bytes ? bytes : sizeof nothing, what, place);
     write_bytes(device, buffer, bytes ? static_cast<const void*>(values.data()) : nothing,
                 bytes ? bytes : sizeof nothing);
     return buffer;

@@ -77,6 +77,26 @@ bool has_extension(vk::PhysicalDevice device, const char* name) {
     return false;
 }
 
+constexpr const char* ray_query_extensions[] = {VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                                VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                                VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+
+bool has_ray_queries(vk::PhysicalDevice device) {
+    for (const char* name : ray_query_extensions)
+        if (!has_extension(device, name)) return false;
+    const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                                           vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
+                                           vk::PhysicalDeviceRayQueryFeaturesKHR>();
+    return chain.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress &&
+           chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure &&
+           chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery;
+}
+
+bool wants_queries(Rays rays, vk::PhysicalDevice device) {
+    const bool is_processor = device.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    return rays == Rays::queries || (rays == Rays::fastest && !is_processor);
+}
+
 /// What the device lacks, or "".
 std::string lack_of(vk::PhysicalDevice device, bool presents = false) {
     const uint32_t version = device.getProperties().apiVersion;
@@ -117,6 +137,10 @@ vk::PhysicalDevice choose(const std::vector<vk::PhysicalDevice>& devices, const 
 
 }  // namespace
 
+Rays rays_named(const std::string& name) {
+    return Rays(std::find(rays_names.begin(), rays_names.end(), name) - rays_names.begin());
+}
+
 Device::Device(const DeviceSettings& settings) {
     try {
         const bool presents = !settings.window_extensions.empty();
@@ -125,6 +149,9 @@ Device::Device(const DeviceSettings& settings) {
         name_ = name_of(physical_);
         limits_ = physical_.getProperties().limits;
         memory_bytes_ = settings.memory_bytes;
+        ray_queries_ = wants_queries(settings.rays, physical_) && has_ray_queries(physical_);
+        if (settings.rays == Rays::queries && !ray_queries_)
+            throw Error("Vulkan: " + name_ + " lacks ray queries (" + VK_KHR_RAY_QUERY_EXTENSION_NAME + ")");
         create_device(presents);
     } catch (const vk::IncompatibleDriverError&) {
         throw Error("Vulkan: no driver found (mesa-vulkan-drivers has one that runs on the CPU)");
@@ -170,11 +197,22 @@ void Device::create_device(bool presents) {
     queue_family_ = *queue_family_of(physical_);
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queue_info({}, queue_family_, 1, &priority);
-    vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>
+    vk::StructureChain<vk::DeviceCreateInfo, vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features,
+                       vk::PhysicalDeviceAccelerationStructureFeaturesKHR, vk::PhysicalDeviceRayQueryFeaturesKHR>
         chain;
     chain.get<vk::DeviceCreateInfo>().setQueueCreateInfos(queue_info);
-    const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
-    if (presents) chain.get<vk::DeviceCreateInfo>().setPEnabledExtensionNames(swapchain);
+    std::vector<const char*> extensions;
+    if (presents) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (ray_queries_) {
+        extensions.insert(extensions.end(), std::begin(ray_query_extensions), std::end(ray_query_extensions));
+        chain.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress = true;
+        chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure = true;
+        chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery = true;
+    } else {
+        chain.unlink<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>();
+        chain.unlink<vk::PhysicalDeviceRayQueryFeaturesKHR>();
+    }
+    chain.get<vk::DeviceCreateInfo>().setPEnabledExtensionNames(extensions);
     chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2 = true;
@@ -182,6 +220,12 @@ void Device::create_device(bool presents) {
     device_ = physical_.createDeviceUnique(chain.get<vk::DeviceCreateInfo>());
     queue_ = device_->getQueue(queue_family_, 0);
     command_pool_ = device_->createCommandPoolUnique({vk::CommandPoolCreateFlagBits::eTransient, queue_family_});
+}
+
+std::string Device::driver() const {
+    const auto chain = physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan12Properties>();
+    const std::string words = chain.get<vk::PhysicalDeviceVulkan12Properties>().driverInfo.data();
+    return words.substr(0, words.find(" ("));
 }
 
 vk::DeviceSize Device::memory_size() const {

@@ -1,6 +1,6 @@
 // A Vulkan 1.3 device with one queue that does graphics, compute and timestamps. Knows no scene and no photons.
 // Required features: scalarBlockLayout, dynamicRendering, synchronization2, maintenance4. Without such a device: one
-// Error.
+// Error. Used where the device has them: ray queries.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -10,11 +10,18 @@
 
 namespace lw {
 
+/// Who finds the triangles that rays meet: the device's ray queries (VK_KHR_ray_query), or a traversal in compute.
+enum class Rays { fastest, queries, compute };  // fastest: queries, but compute where both run on a processor
+inline const std::vector<std::string> rays_names{"fastest", "queries", "compute"};
+/// One of rays_names.
+Rays rays_named(const std::string& name);
+
 struct DeviceSettings {
     std::string name;         // part of the device's name, any case; empty: discrete before integrated before CPU
     bool validation = false;  // Khronos validation layer with synchronization checks
     std::vector<std::string> window_extensions{};  // of the instance; any: the device must be able to present
     vk::DeviceSize memory_bytes = 0;               // most that may be used; 0: what the device has to give
+    Rays rays = Rays::fastest;
 };
 
 /// Errors and warnings of the validation layer, in order; filled from any thread.
@@ -38,7 +45,11 @@ class Device {
     vk::Queue queue() const { return queue_; }
     vk::CommandPool command_pool() const { return *command_pool_; }
     const std::string& name() const { return name_; }
+    /// The driver and its version in its own words, such as "Mesa 22.3.6".
+    std::string driver() const;
     const vk::PhysicalDeviceLimits& limits() const { return limits_; }
+    /// True when rays are to be traced by ray queries.
+    bool ray_queries() const { return ray_queries_; }
     /// Size of the largest heap of device-local memory, bytes.
     vk::DeviceSize memory_size() const;
     /// Bytes that may be used of it now: what the driver says is left (VK_EXT_memory_budget, else all), at most the
@@ -61,6 +72,7 @@ class Device {
     std::string name_;
     vk::PhysicalDeviceLimits limits_;
     vk::DeviceSize memory_bytes_ = 0;
+    bool ray_queries_ = false;
     vk::UniqueDevice device_;
     vk::Queue queue_;
     vk::UniqueCommandPool command_pool_;

@@ -55,6 +55,13 @@ void DescriptorSet::set_texels(uint32_t binding, vk::BufferView texels, uint32_t
     device_->handle().updateDescriptorSets(write, {});
 }
 
+void DescriptorSet::set_acceleration(uint32_t binding, vk::AccelerationStructureKHR acceleration) const {
+    const vk::WriteDescriptorSetAccelerationStructureKHR what(acceleration);
+    vk::WriteDescriptorSet write(set_, binding, 0, 1, vk::DescriptorType::eAccelerationStructureKHR);
+    write.pNext = &what;
+    device_->handle().updateDescriptorSets(write, {});
+}
+
 void DescriptorSet::set_target(uint32_t binding, const Target& texture) const {
     const vk::DescriptorImageInfo what({}, texture.view(), vk::ImageLayout::eShaderReadOnlyOptimal);
     const vk::WriteDescriptorSet write(set_, binding, 0, vk::DescriptorType::eSampledImage, what);

@@ -26,6 +26,7 @@ class DescriptorSet {
     vk::DescriptorSet handle() const { return set_; }
     void set_buffer(uint32_t binding, const Buffer& buffer, uint32_t element = 0) const;
     void set_texels(uint32_t binding, vk::BufferView texels, uint32_t element = 0) const;
+    void set_acceleration(uint32_t binding, vk::AccelerationStructureKHR acceleration) const;
     /// A texture in layout eShaderReadOnlyOptimal, fetched without a sampler.
     void set_target(uint32_t binding, const Target& texture) const;
 

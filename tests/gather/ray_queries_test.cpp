@@ -1,0 +1,108 @@
+// The device's ray queries give the pictures of the traversal in compute. Skipped where no device has them; tools/test runs
+// these tests on a newer software rasterizer too (tools/newer-mesa).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "base/error.h"
+#include "gather/renderer.h"
+#include "maps/build.h"
+#include "photons/shoot.h"
+#include "scene/gltf.h"
+#include "trace/build_bvh.h"
+
+namespace lw {
+namespace {
+
+struct RayQueries : testing::Test {
+    void SetUp() override {
+        try {
+            queries_ = std::make_unique<Device>(settings(Rays::queries));
+        } catch (const Error& lack) {
+            ASSERT_NE(std::string(lack.what()).find("lacks ray queries (VK_KHR_ray_query)"), std::string::npos)
+                << lack.what();
+            GTEST_SKIP() << lack.what();
+        }
+        compute_ = std::make_unique<Device>(settings(Rays::compute));
+        ASSERT_TRUE(queries_->ray_queries());
+        ASSERT_FALSE(compute_->ray_queries());
+    }
+    void TearDown() override {
+        if (!queries_) return;
+        for (const std::string& message : queries_->validation_messages()) ADD_FAILURE() << message;
+    }
+    static DeviceSettings settings(Rays rays) { return {"", true, {}, 0, rays}; }
+
+    std::unique_ptr<Device> queries_, compute_;
+};
+
+struct Pictures {
+    Pictures(const std::string& file, uint64_t photons, const std::function<void(Scene&)>& change = nullptr)
+        : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/" + file)) {
+        if (change) change(scene);
+        const RayCaster caster(scene);
+        map = build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1});
+        bvh = build_bvh(scene);
+    }
+    Image on(const Device& device) const {
+        const Resident resident(device, scene, map, bvh);
+        EXPECT_EQ(resident.queries_rays(), device.ray_queries());
+        RenderSettings settings;
+        settings.samples = 2;
+        return Renderer(device, resident, 96, 72).render(scene.cameras[0], settings).image;
+    }
+    Scene scene;
+    PhotonMap map;
+    Bvh bvh;
+};
+
+/// Light of nearly every pixel, and the mean: a ray along an edge may fall on either side of it.
+void expect_same(const Image& got, const Image& expected) {
+    for (const char* channel : {"G", "illuminance"}) {
+        const std::vector<float>&a = got.find(channel)->values, &b = expected.find(channel)->values;
+        double sum = 0, difference = 0;
+        size_t others = 0;
+        for (size_t i = 0; i < a.size(); ++i) {
+            sum += double(b[i]), difference += double(a[i]) - double(b[i]);
+            others += std::abs(a[i] - b[i]) > 1e-3f * b[i] + 1e-3f;
+        }
+        EXPECT_GT(sum, 0);
+        EXPECT_NEAR(difference / sum, 0, 5e-4) << channel;
+        EXPECT_LE(others, a.size() / 200) << channel;
+    }
+}
+
+TEST_F(RayQueries, GiveTheShadowsOfOpaqueTriangles) {
+    const Pictures room("cornell.gltf", 20000);
+    expect_same(room.on(*queries_), room.on(*compute_));
+}
+
+TEST_F(RayQueries, FollowReflectionsAndGlass) {
+    for (const char* file : {"glossy_floor.gltf", "glass_sphere.gltf", "apartment.glb"}) {
+        SCOPED_TRACE(file);
+        const Pictures room(file, 50000);
+        expect_same(room.on(*queries_), room.on(*compute_));
+    }
+}
+
+TEST_F(RayQueries, PassWhatLetsLightThrough) {
+    const Pictures all_through("cornell.gltf", 20000, [](Scene& scene) {  // no opaque triangle at all
+        for (Material& m : scene.materials) m.flags |= material_alpha_blend, m.alpha = 0.9f;
+    });
+    expect_same(all_through.on(*queries_), all_through.on(*compute_));
+    const Pictures thin_glass("glass_sphere.gltf", 20000, [](Scene& scene) {
+        for (Material& m : scene.materials)
+            if (m.transmission > 0) m.flags |= material_thin, m.base_color = vec3(0.3f, 0.9f, 0.5f);
+    });
+    expect_same(thin_glass.on(*queries_), thin_glass.on(*compute_));
+}
+
+TEST(RayQueriesOfDevices, AProcessorTracesInCompute) {
+    const Device device(DeviceSettings{"llvmpipe", false});
+    EXPECT_FALSE(device.ray_queries());
+}
+
+}  // namespace
+}  // namespace lw
