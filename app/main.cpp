@@ -33,7 +33,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--device", o.walk.device.name, "part of the name of a Vulkan device; default: the fastest kind");
     app.add_option("--device-memory", o.device_memory_gb,
                    "GB of the device that scene and photons may take; default: what it has to give");
-    app.add_option("--rays", o.rays, "who traces the rays of a picture: queries (by the device, where it can), compute, or fastest of both")
+    app.add_option("--rays", o.rays, lw::rays_help)
         ->check(CLI::IsMember(lw::rays_names))
         ->capture_default_str();
     app.add_option("--play", o.play.path, "replay this recorded walk without a window and end");

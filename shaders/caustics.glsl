@@ -1,4 +1,4 @@
-// Light that lamps send by mirrors and smooth glass alone, from grids of its own (second half of triangle_maps): gathered at
+// Light that lamps send by mirrors and smooth glass alone, from grids of its own: gathered at
 // each point with a small bandwidth, so that it stays sharp; the cached mode finds smooth caustics in the light of its cells.
 // One text for C++ and GLSL; needs gather.glsl, the functions caustic_map_of, cell_word and the constants has_caustics,
 // has_smooth_caustics, has_visible_lamps, light_count.

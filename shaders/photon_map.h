@@ -155,10 +155,11 @@ LW_INLINE vec3 unpack_rgb9e5(uint bits) {
     return vec3(float(bits & 0x1ffu), float((bits >> 9) & 0x1ffu), float((bits >> 18) & 0x1ffu)) * scale;
 }
 
-/// Unit vector from 16 + 16 bits of an octahedral map (Cigolle et al. 2014).
+/// Unit vector from 8 + 8 bits of an octahedral map (Cigolle et al. 2014), 0 to 254, which part neighbours
+/// by 0.6 to 1.9 degrees. They are dithered: right in the mean of many photons.
 LW_INLINE vec3 unpack_direction(uint bits) {
-    float x = float(bits & 0xffffu) / 32767.5f - 1.0f;
-    float y = float(bits >> 16) / 32767.5f - 1.0f;
+    float x = float(bits & 0xffu) / 127.0f - 1.0f;
+    float y = float(bits >> 8) / 127.0f - 1.0f;
     float z = 1.0f - abs(x) - abs(y);
     float t = max(-z, 0.0f);
     x += x >= 0.0f ? -t : t;

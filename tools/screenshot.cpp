@@ -75,7 +75,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--frames", o.frames, "frames to time, the median is told")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    app.add_option("--rays", o.rays, "who traces the rays of a picture: queries (by the device, where it can), compute, or fastest of both")
+    app.add_option("--rays", o.rays, lw::rays_help)
         ->check(CLI::IsMember(lw::rays_names))
         ->capture_default_str();
     app.add_flag("--validation", o.validation, "run with the Vulkan validation layer; any message is an error");
@@ -148,7 +148,10 @@ void take_screenshot(const Options& o) {
     const std::filesystem::path map_path = o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map);
     const lw::PhotonMap map = lw::load_photon_map(map_path, scene);
     lw::check_can_create(o.output, {o.scene, map_path});
-    const lw::Device device({o.device, o.validation, {}, vk::DeviceSize(o.device_memory_gb * 1e9), lw::rays_named(o.rays)});
+    const lw::Device device({.name = o.device,
+                             .validation = o.validation,
+                             .memory_bytes = vk::DeviceSize(o.device_memory_gb * 1e9),
+                             .rays = lw::rays_named(o.rays)});
     const lw::Bvh bvh = lw::build_bvh(scene);
     lw::Resident resident(device, scene, map, bvh);
     resident.set_light_factors(factors);

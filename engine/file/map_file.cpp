@@ -14,8 +14,8 @@ namespace lw {
 namespace {
 
 constexpr std::array<char, 8> magic{'L', 'W', 'P', 'H', 'O', 'T', 'O', 'N'};
-constexpr uint32_t version = 3;
-constexpr size_t section_count = 12;
+constexpr uint32_t version = 4;
+constexpr size_t section_count = 15;
 
 /// The fixed head of the file; sections follow in this order, each `bytes` long.
 struct Header {
@@ -35,7 +35,7 @@ struct Header {
     uint32_t caustic_grids;  // the last of the grids; 0 in files of scenes without
     std::array<uint64_t, section_count> bytes;
 };
-static_assert(sizeof(Header) == 176);
+static_assert(sizeof(Header) == 200);
 constexpr size_t checked_from = offsetof(Header, scene_hash);
 
 /// Calls visit(array) for the sections in file order; Map is PhotonMap or const PhotonMap.
@@ -43,6 +43,8 @@ template <class Map, class Visit>
 void for_each_section(Map& map, const Visit& visit) {
     visit(map.emitted);
     visit(map.triangle_maps);
+    visit(map.caustic_sides.marks);
+    visit(map.caustic_sides.values);
     visit(map.grids);
     visit(map.cell_starts);
     visit(map.places);
@@ -50,7 +52,8 @@ void for_each_section(Map& map, const Visit& visit) {
     visit(map.directions);
     visit(map.coverage);
     visit(map.visible_lamps);
-    visit(map.irradiance);
+    visit(map.irradiance.marks);
+    visit(map.irradiance.values);
     visit(map.smooth_caustics);
     visit(map.shadow_masks);
 }
@@ -147,11 +150,12 @@ void check_grids(const std::filesystem::path& path, const PhotonMap& map, const 
     if (map.cell_starts.back() != map.places.size()) refuse(path, "cells and references do not agree");
 }
 
-void check_indices(const std::filesystem::path& path, const PhotonMap& map, const Scene& scene) {
+void check_indices(const std::filesystem::path& path, PhotonMap& map, const Scene& scene) {
     if (map.cell_starts.empty()) refuse(path, "it has no cells");
     if (map.emitted.size() != scene.lights.size()) refuse(path, "the number of lamps does not agree with the scene");
     if (map.caustic_grids > map.grids.size()) refuse(path, "it has more grids of caustics than grids");
-    if (map.triangle_maps.size() != map.sides_per_triangle() * scene.triangles.size())
+    const uint64_t sides = 2 * scene.triangles.size(), of_caustics = map.caustic_grids > 0 ? sides : 0;
+    if (map.triangle_maps.size() != sides || !map.caustic_sides.accept(of_caustics))
         refuse(path, "the number of triangles does not agree with the scene");
     if (map.fluxes.size() != map.places.size() || (map.has_directions() && map.directions.size() != map.places.size()))
         refuse(path, "the record arrays differ in length");
@@ -159,12 +163,13 @@ void check_indices(const std::filesystem::path& path, const PhotonMap& map, cons
     const size_t others = map.grids.size() - map.caustic_grids;
     check_cuts(path, map, 0, others);
     check_cuts(path, map, others, map.grids.size());
-    for (size_t i = 0; i < map.triangle_maps.size(); ++i) {
-        const uint index = map.triangle_maps[i];
-        const bool for_caustics = i >= 2 * scene.triangles.size();
-        if (index != no_map && (index >= map.grids.size() || (index >= others) != for_caustics))
-            refuse(path, "a triangle refers to grid " + std::to_string(index) + " which does not exist");
-    }
+    const auto refuse_grid = [&](uint index) {
+        refuse(path, "a triangle refers to grid " + std::to_string(index) + " which does not exist");
+    };
+    for (uint index : map.triangle_maps)
+        if (index != no_map && index >= others) refuse_grid(index);
+    for (uint word : map.caustic_sides.values)
+        if (word != 0 && (word - 1 < others || word - 1 >= map.grids.size())) refuse_grid(word - 1);
     for (const PhotonPlace& place : map.places)
         if (light_of(place) >= scene.lights.size())
             refuse(path, "a photon refers to lamp " + std::to_string(light_of(place)) + " which does not exist");
@@ -272,7 +277,7 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
     if (map.has_visible_lamps() &&
         map.visible_lamps.size() != map.coverage.size() * visibility_words(uint(scene.lights.size())))
         refuse(path, "lattices and lamp visibility do not agree");
-    if (map.irradiance.size() != map.coverage.size() * scene.lights.size())
+    if (!map.irradiance.accept(map.coverage.size() * scene.lights.size()))
         refuse(path, "lattices and irradiance do not agree");
     const size_t marks = map.caustic_grids > 0 && map.has_visible_lamps() ? (map.coverage.size() + 31) / 32 : 0;
     if (map.smooth_caustics.size() != marks) refuse(path, "lattices and marks of caustics do not agree");

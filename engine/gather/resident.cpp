@@ -60,10 +60,12 @@ float narrowest_roughness(const Scene& scene) {
 
 /// Bytes that the scene and the map take on the device: corners of triangles, textures, the map with the light of its
 /// cells.
-uint64_t total_bytes(const Scene& s, const PhotonMap& m) {
+uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
+    // An acceleration structure and what building it takes; on Mesa's software rasterizer 70 bytes stay.
+    const uint64_t rays_per_triangle = queries_rays ? 200 : 0;
     const uint64_t corner = 32 + (s.uv1.empty() ? 0 : 8) + (s.colors.empty() ? 0 : 16) + (s.tangents.empty() ? 0 : 16);
-    return s.triangles.size() * (3 * corner + sizeof(uvec4)) + bytes(s.texels) + m.bytes() +
+    return s.triangles.size() * (3 * corner + sizeof(uvec4) + rays_per_triangle) + bytes(s.texels) + m.bytes() +
            m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
 }
 
@@ -77,13 +79,13 @@ uint64_t photons_that_fit(const PhotonMap& map, uint64_t others, uint64_t budget
     return most / step * step;
 }
 
-void check_device(const Device& device, const Scene& scene, const PhotonMap& map) {
+void check_device(const Device& device, const Scene& scene, const PhotonMap& map, bool queries_rays) {
     const uint32_t needed = texel_binding_count + 3 * (most_chunks - 1) + 1;
     const uint32_t has = device.limits().maxPerStageDescriptorSampledImages;
     if (has < needed)
         throw Error(device.name() + ": binds " + std::to_string(has) + " textures, " + std::to_string(needed) +
                     " are needed");
-    const uint64_t bytes = total_bytes(scene, map), budget = device.memory_budget();
+    const uint64_t bytes = total_bytes(scene, map, queries_rays), budget = device.memory_budget();
     if (bytes <= budget) return;
     const uint64_t without_photons = bytes - std::min(bytes, map.bytes()),
                    most = photons_that_fit(map, without_photons, budget);
@@ -127,9 +129,9 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
       descriptors_{DescriptorSet(device, scene_bindings(queries_rays_)), DescriptorSet(device, scene_bindings(queries_rays_))} {
     if (scene.triangles.size() > 0xffffffffu / 3u)
         throw Error(scene.path.string() + ": more than " + std::to_string(0xffffffffu / 3u) + " triangles");
-    if (!map.triangle_maps.empty() && map.triangle_maps.size() != map.sides_per_triangle() * scene.triangles.size())
+    if (!map.triangle_maps.empty() && map.triangle_maps.size() != 2 * scene.triangles.size())
         throw Error(scene.path.string() + ": the photon map belongs to another scene");
-    check_device(device, scene, map);
+    check_device(device, scene, map, queries_rays_);
     if (map.has_coverage()) cells_.emplace(scene, map);
     choose_constants(scene, map, bvh);
     constants_[constant_has_direct] = !bvh.nodes.empty() && !map.settings.direct_in_photons;
@@ -226,8 +228,8 @@ void Resident::upload_corners(const Scene& scene) {
         triangles.emplace_back(map(0), map(1), object.material, uint(object.light));
     }
     std::vector<uvec2> caustic_maps;
-    for (size_t t = 2 * scene.triangles.size(); t < map_->triangle_maps.size(); t += 2)
-        caustic_maps.emplace_back(map_->triangle_maps[t], map_->triangle_maps[t + 1]);
+    for (size_t t = 0; t < scene.triangles.size() && map_->caustic_grids > 0; ++t)
+        caustic_maps.emplace_back(map_->caustic_map_of(2 * t), map_->caustic_map_of(2 * t + 1));
     upload_texels<uvec2>(binding_caustic_maps, vk::Format::eR32G32Uint, caustic_maps, "caustic maps of triangles");
     upload_texels<uvec4>(binding_triangles, vk::Format::eR32G32B32A32Uint, triangles, "triangles");
 }
@@ -238,7 +240,7 @@ void Resident::upload_map(const PhotonMap& map) {
     upload_texels<uint>(binding_cell_starts, word, map.cell_starts, "cells");
     upload_chunks<PhotonPlace>(binding_places, two, map.places, "photon places");
     upload_chunks<uint>(binding_fluxes, word, map.fluxes, "photon fluxes");
-    upload_chunks<uint>(binding_directions, word, map.directions, "photon directions");
+    upload_chunks<uint16_t>(binding_directions, vk::Format::eR16Uint, map.directions, "photon directions");
     upload_texels<uint>(binding_coverage, word, map.coverage, "coverage");
     upload_texels<uint>(binding_cell_words, word, cells_ ? cells_->words() : std::vector<uint>(), "cells");
     upload_texels<uvec4>(binding_shadow_masks, four, cells_ ? cells_->masks() : std::vector<uvec4>(), "shadow masks");
@@ -247,10 +249,11 @@ void Resident::upload_map(const PhotonMap& map) {
 void Resident::upload_direct(const Scene& scene, const Bvh& bvh) {
     upload_records<Light>(binding_lights, scene.lights, "lights");
     upload_records<Emitter>(binding_emitters, scene.emitters, "emitters");
-    upload_texels<BvhNode>(binding_bvh_nodes, vk::Format::eR32G32B32A32Uint,
-                           queries_rays_ ? std::span<const BvhNode>() : bvh.nodes, "nodes of the shadow rays' hierarchy");
-    upload_texels<uint>(binding_bvh_triangles, vk::Format::eR32Uint, queries_rays_ ? queried(bvh) : bvh.triangles,
-                        "triangles of the shadow rays' hierarchy");
+    const std::span<const BvhNode> nodes = queries_rays_ ? std::span<const BvhNode>() : bvh.nodes;
+    const std::vector<uint> triangles = queries_rays_ ? queried(bvh) : bvh.triangles;
+    upload_texels<BvhNode>(binding_bvh_nodes, vk::Format::eR32G32B32A32Uint, nodes, "nodes of the shadow rays' hierarchy");
+    upload_texels<uint>(binding_bvh_triangles, vk::Format::eR32Uint, triangles, "triangles of the shadow rays' hierarchy");
+    list_of_rays_ = nodes.size_bytes() + triangles.size() * sizeof(uint);
 }
 
 std::vector<uint> Resident::queried(const Bvh& bvh) {
@@ -279,6 +282,8 @@ void Resident::upload_records(uint binding, std::span<const T> values, const std
 
 uint texel_bytes(vk::Format format) {
     switch (format) {
+        case vk::Format::eR16Uint:
+            return 2;
         case vk::Format::eR32G32Uint:
         case vk::Format::eR32G32Sfloat:
             return 8;
@@ -356,6 +361,10 @@ void Resident::write_cells(Lamps& lamps, std::span<const vec3> weights) const {
     std::vector<uvec4> light;
     lamps.inverse_irradiance_scale = 1 / cells_->sum(weights, light);
     write_bytes(*device_, lamps.cells, light.data(), light.size() * sizeof(uvec4));
+}
+
+uint64_t Resident::ray_bytes() const {
+    return acceleration_ ? acceleration_->bytes() + list_of_rays_ : list_of_rays_;
 }
 
 uint64_t Resident::bytes() const {

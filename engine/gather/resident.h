@@ -1,5 +1,5 @@
 // A scene and its photon map in GPU memory, as descriptor set 0 of all passes (shaders/frame.h).
-// The map's arrays are uploaded as they are, those of the vertices per corner; photon records beyond the device's texel
+// The photons' arrays are uploaded as they are, those of the vertices per corner; photon records beyond the device's texel
 // buffers are split over several.
 #pragma once
 #include <array>
@@ -60,7 +60,8 @@ class Resident {
     float scene_size() const { return scene_size_; }    // m
     float inverse_irradiance_scale(uint setting = 0) const { return lamps_[setting].inverse_irradiance_scale; }
     float inverse_flux_scale() const { return inverse_flux_scale_; }
-    uint64_t bytes() const;  // GPU memory of all buffers
+    uint64_t bytes() const;      // GPU memory of all buffers
+    uint64_t ray_bytes() const;  // of these, what rays are found with
 
   private:
     void choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh);
@@ -98,6 +99,7 @@ class Resident {
     float scene_size_;
     float narrowest_lobe_ = 1;
     bool queries_rays_;
+    uint64_t list_of_rays_ = 0;  // bytes of nodes and triangles in buffers_
     std::array<DescriptorSet, 2> descriptors_;
     std::vector<Buffer> buffers_;
     std::vector<vk::UniqueBufferView> views_;

@@ -2,7 +2,6 @@
 // Vulkan specification, chapters "Acceleration Structures" and "Ray Queries".
 #pragma once
 #include <glm/glm.hpp>
-#include <memory>
 
 #include "gpu/buffer.h"
 
@@ -20,6 +19,8 @@ class Acceleration {
   public:
     /// Builds on the device and waits. Needs Device::ray_queries(). Throws Error when there is not enough memory.
     Acceleration(const Device& device, const TracedTriangles& triangles);
+    Acceleration(Acceleration&&) = default;
+    Acceleration& operator=(Acceleration&&) = delete;  // would free buffers before what lies in them
     /// For a descriptor (DescriptorSet::set_acceleration).
     vk::AccelerationStructureKHR handle() const { return *scene_.handle; }
     vk::DeviceSize bytes() const { return triangles_.buffer.size() + scene_.buffer.size(); }
@@ -32,8 +33,6 @@ class Acceleration {
     Level build(const Device& device, vk::AccelerationStructureTypeKHR type,
                 std::span<const vk::AccelerationStructureGeometryKHR> geometries,
                 std::span<const vk::AccelerationStructureBuildRangeInfoKHR> ranges) const;
-
-    std::unique_ptr<vk::DispatchLoaderDynamic> dispatch_;  // the loader exports no function of extensions
     Level triangles_, scene_;
 };
 

@@ -149,10 +149,10 @@ Device::Device(const DeviceSettings& settings) {
         name_ = name_of(physical_);
         limits_ = physical_.getProperties().limits;
         memory_bytes_ = settings.memory_bytes;
-        ray_queries_ = wants_queries(settings.rays, physical_) && has_ray_queries(physical_);
-        if (settings.rays == Rays::queries && !ray_queries_)
+        const bool ray_queries = wants_queries(settings.rays, physical_) && has_ray_queries(physical_);
+        if (settings.rays == Rays::queries && !ray_queries)
             throw Error("Vulkan: " + name_ + " lacks ray queries (" + VK_KHR_RAY_QUERY_EXTENSION_NAME + ")");
-        create_device(presents);
+        create_device(presents, ray_queries);
     } catch (const vk::IncompatibleDriverError&) {
         throw Error("Vulkan: no driver found (mesa-vulkan-drivers has one that runs on the CPU)");
     } catch (const vk::SystemError& failure) {
@@ -193,7 +193,7 @@ void Device::create_instance(const DeviceSettings& settings) {
         throw Error("Vulkan: the validation layer cannot report");
 }
 
-void Device::create_device(bool presents) {
+void Device::create_device(bool presents, bool ray_queries) {
     queue_family_ = *queue_family_of(physical_);
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queue_info({}, queue_family_, 1, &priority);
@@ -203,7 +203,7 @@ void Device::create_device(bool presents) {
     chain.get<vk::DeviceCreateInfo>().setQueueCreateInfos(queue_info);
     std::vector<const char*> extensions;
     if (presents) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-    if (ray_queries_) {
+    if (ray_queries) {
         extensions.insert(extensions.end(), std::begin(ray_query_extensions), std::end(ray_query_extensions));
         chain.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress = true;
         chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure = true;
@@ -218,6 +218,7 @@ void Device::create_device(bool presents) {
     chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2 = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4 = true;  // glslang states work group sizes by id
     device_ = physical_.createDeviceUnique(chain.get<vk::DeviceCreateInfo>());
+    if (ray_queries) ray_functions_.emplace(*instance_, vkGetInstanceProcAddr, *device_, vkGetDeviceProcAddr);
     queue_ = device_->getQueue(queue_family_, 0);
     command_pool_ = device_->createCommandPoolUnique({vk::CommandPoolCreateFlagBits::eTransient, queue_family_});
 }

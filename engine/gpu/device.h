@@ -4,6 +4,7 @@
 #pragma once
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 #include <vulkan/vulkan.hpp>
@@ -13,6 +14,9 @@ namespace lw {
 /// Who finds the triangles that rays meet: the device's ray queries (VK_KHR_ray_query), or a traversal in compute.
 enum class Rays { fastest, queries, compute };  // fastest: queries, but compute where both run on a processor
 inline const std::vector<std::string> rays_names{"fastest", "queries", "compute"};
+inline constexpr const char* rays_help =
+    "who traces the rays of a picture: compute, queries (VK_KHR_ray_query, an error on a device without), or fastest: "
+    "queries on a GPU that has them, else compute";
 /// One of rays_names.
 Rays rays_named(const std::string& name);
 
@@ -49,7 +53,9 @@ class Device {
     std::string driver() const;
     const vk::PhysicalDeviceLimits& limits() const { return limits_; }
     /// True when rays are to be traced by ray queries.
-    bool ray_queries() const { return ray_queries_; }
+    bool ray_queries() const { return ray_functions_.has_value(); }
+    /// Of the extensions that come with ray queries, which the loader does not export.
+    const vk::DispatchLoaderDynamic& ray_functions() const { return *ray_functions_; }
     /// Size of the largest heap of device-local memory, bytes.
     vk::DeviceSize memory_size() const;
     /// Bytes that may be used of it now: what the driver says is left (VK_EXT_memory_budget, else all), at most the
@@ -62,7 +68,7 @@ class Device {
 
   private:
     void create_instance(const DeviceSettings& settings);
-    void create_device(bool presents);
+    void create_device(bool presents, bool ray_queries);
 
     std::unique_ptr<ValidationLog> log_;
     vk::UniqueInstance instance_;
@@ -72,8 +78,8 @@ class Device {
     std::string name_;
     vk::PhysicalDeviceLimits limits_;
     vk::DeviceSize memory_bytes_ = 0;
-    bool ray_queries_ = false;
     vk::UniqueDevice device_;
+    std::optional<vk::DispatchLoaderDynamic> ray_functions_;
     vk::Queue queue_;
     vk::UniqueCommandPool command_pool_;
 };

@@ -43,11 +43,18 @@ float flux_scale_of(const std::vector<Photon>& photons) {
     return top > 0 ? std::exp2(12 - std::ceil(std::log2(top))) : 1.0f;
 }
 
-/// Drops patches without photons, numbers the others after the grids the map has, then the cuts that lead to any, which
-/// are appended to `cuts`; returns the kept patches in order.
-std::vector<uint> keep_lit_patches(const References& references, const Patches& patches, PhotonMap& map,
-                                   std::vector<SurfaceGrid>& cuts) {
-    std::vector<uint> kept, renumbered(patches.count + patches.cuts.size(), no_map);
+/// The maps of a set of photons.
+struct LitPatches {
+    std::vector<uint> kept;         // their patches, in order
+    std::vector<SurfaceGrid> cuts;  // that lead to any of them
+    std::vector<uint> of_side;      // the map or cut of each side of a triangle, or no_map
+};
+
+/// Drops patches without photons, numbers the others after the grids the map has, then the cuts that lead to any.
+LitPatches keep_lit_patches(const References& references, const Patches& patches, const PhotonMap& map) {
+    LitPatches lit;
+    std::vector<uint>& kept = lit.kept;
+    std::vector<uint> renumbered(patches.count + patches.cuts.size(), no_map);
     for (uint p = 0; p < patches.count; ++p) {
         if (references.starts[p] == references.starts[p + 1]) continue;
         renumbered[p] = uint(map.grids.size() + kept.size());
@@ -63,12 +70,12 @@ std::vector<uint> keep_lit_patches(const References& references, const Patches& 
     for (size_t c = 0; c < patches.cuts.size(); ++c)
         if (is_lit[patches.count + c]) {
             const PatchCut& cut = patches.cuts[c];
-            cuts.push_back({});
-            cuts.back().origin = cut.point, cuts.back().normal = cut.up;
-            cuts.back().rows = renumbered[cut.front], cuts.back().first_cell = renumbered[cut.back];
+            SurfaceGrid& grid = lit.cuts.emplace_back();
+            grid.origin = cut.point, grid.normal = cut.up;
+            grid.rows = renumbered[cut.front], grid.first_cell = renumbered[cut.back];
         }
-    for (uint patch : patches.of_side) map.triangle_maps.push_back(renumbered[patch]);
-    return kept;
+    for (uint patch : patches.of_side) lit.of_side.push_back(renumbered[patch]);
+    return lit;
 }
 
 }  // namespace
@@ -153,13 +160,13 @@ void append_cells(const std::vector<std::vector<uint>>& starts, size_t first_gri
     map.cell_starts.push_back(uint(map.places.size()));
 }
 
-/// Appends the grids of a set of photons and which triangles they belong to; returns the patch of each grid.
-std::vector<uint> append_grids(const Scene& scene, const RayCaster& caster, const Partition& partition,
+/// Appends the grids of a set of photons, cuts last.
+LitPatches append_grids(const Scene& scene, const RayCaster& caster, const Partition& partition,
                                const std::vector<Photon>& photons, PhotonMap& map) {
     const References references = find_references({scene, photons, partition.patches, partition.shapes, partition.radii,
                                                    map.settings.neighbour_angle_deg, partition.neighbours, caster});
-    std::vector<SurfaceGrid> cuts;
-    const std::vector<uint> kept = keep_lit_patches(references, partition.patches, map, cuts);
+    LitPatches lit = keep_lit_patches(references, partition.patches, map);
+    const std::vector<uint>& kept = lit.kept;
     const size_t first_grid = map.grids.size(), first_place = map.places.size();
     const size_t end = first_place + references.photons.size();
     map.grids.resize(first_grid + kept.size());
@@ -175,8 +182,8 @@ std::vector<uint> append_grids(const Scene& scene, const RayCaster& caster, cons
             fill_grid(grid, photons, {references.photons.data() + first, last - first}, uint(first_place + first), map);
     });
     append_cells(starts, first_grid, map);
-    map.grids.insert(map.grids.end(), cuts.begin(), cuts.end());
-    return kept;
+    map.grids.insert(map.grids.end(), lit.cuts.begin(), lit.cuts.end());
+    return lit;
 }
 
 /// The coverage of all nodes: in closed form where the ground is plane, from samples elsewhere, one every 0.03 R2 (26
@@ -216,7 +223,8 @@ std::vector<uint> find_coverage(const Scene& scene, const RayCaster& caster, con
     return pack_coverage(coverage);
 }
 
-/// Lays the lattices, nodes every half of the largest radius, and computes what their nodes keep; returns their points.
+/// Lays the lattices, nodes every half of the largest radius, and computes what their nodes keep but for their light;
+/// returns their points.
 std::vector<NodePoint> add_lattices(const Scene& scene, const RayCaster& caster, const Partition& partition,
                                     const std::vector<uint>& kept, PhotonMap& map) {
     std::vector<PatchShape> shapes;
@@ -228,7 +236,6 @@ std::vector<NodePoint> add_lattices(const Scene& scene, const RayCaster& caster,
         map.shadow_masks = find_shadow_masks(scene, caster, map);
     }
     map.coverage = find_coverage(scene, caster, partition, kept, nodes, map);
-    map.irradiance = find_irradiance(scene, caster, map, nodes, map.irradiance_scale);
     return nodes;
 }
 
@@ -254,14 +261,19 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     if (!caustic.empty())
         std::copy_if(photons.records.begin(), photons.records.end(), std::back_inserter(others),
                      [](const Photon& p) { return !is_caustic(p.path()); });
-    const std::vector<uint> kept =
-        append_grids(scene, caster, partition, caustic.empty() ? photons.records : others, map);
-    const std::vector<NodePoint> nodes = add_lattices(scene, caster, partition, kept, map);
-    if (caustic.empty()) return map;
-    const size_t others_end = map.grids.size();
-    append_grids(scene, caster, partition, caustic, map);
-    map.caustic_grids = uint(map.grids.size() - others_end);
-    if (map.has_visible_lamps()) add_smooth_caustics(scene, nodes, map);
+    LitPatches lit = append_grids(scene, caster, partition, caustic.empty() ? photons.records : others, map);
+    map.triangle_maps = std::move(lit.of_side);
+    const std::vector<NodePoint> nodes = add_lattices(scene, caster, partition, lit.kept, map);
+    std::vector<uint> irradiance = find_irradiance(scene, caster, map, nodes, map.irradiance_scale);
+    if (!caustic.empty()) {
+        const size_t others_end = map.grids.size();
+        LitPatches caustics = append_grids(scene, caster, partition, caustic, map);
+        for (uint& grid : caustics.of_side) ++grid;  // none: 0
+        map.caustic_sides = SparseWords(caustics.of_side);
+        map.caustic_grids = uint(map.grids.size() - others_end);
+        if (map.has_visible_lamps()) map.smooth_caustics = add_smooth_caustics(scene, nodes, map, irradiance);
+    }
+    map.irradiance = SparseWords(irradiance);
     return map;
 }
 

@@ -15,7 +15,7 @@ double area_of(const Scene& scene);
 float automatic_radius(const Scene& scene, uint64_t photons);
 
 /// Builds the maps. settings.radius of 0 is replaced by the automatic radius;
-/// small patches get a smaller one while references per photon exceed 2.3, or what leaves 48 bytes per photon in all.
+/// small patches get a smaller one while references per photon exceed 2.3.
 /// Directions are kept only when a surface of
 /// the scene needs them (a specular lobe or a normal map). Same input gives the same bytes at any thread count.
 PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings);

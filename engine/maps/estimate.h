@@ -82,7 +82,7 @@ class PhotonEstimator : public SurfaceReader {
     uvec4 shadow_mask(uint i) const { return shadow_masks_[i]; }
     uint map_of(uint triangle, bool front) const { return triangle_maps[2 * triangle + (front ? 0 : 1)]; }
     uint caustic_map_of(uint triangle, bool front) const {
-        return triangle_maps[2 * (size_t(triangle_count_) + triangle) + (front ? 0 : 1)];
+        return map_.caustic_map_of(2 * size_t(triangle) + (front ? 0 : 1));
     }
     const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : no_grid_; }
     bool is_cut(uint map) const { return map < map_.grids.size() && map_.grids[map].columns == 0; }

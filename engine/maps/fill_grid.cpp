@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/random.h"
 #include "maps/packing.h"
 
 namespace lw {
@@ -12,12 +13,19 @@ namespace {
 /// What a map keeps of a photon.
 struct Record {
     vec3 local;  // u, v, h from the anchor of the patch, m
-    uint origin, flux, direction;
+    uint origin, flux;
+    uint16_t direction;
 };
 
 struct Bounds {
     vec3 low{1e30f}, high{-1e30f};
 };
+
+/// The same for each reference to a photon.
+vec2 dither_of(uint photon) {
+    const uint64_t bits = mix64(photon);
+    return vec2(float(bits & 0xffffu), float((bits >> 16) & 0xffffu)) / 65536.0f;
+}
 
 std::vector<Record> bring_into_frame(const SurfaceGrid& grid, const std::vector<Photon>& photons,
                                      std::span<const uint> chosen, const PhotonMap& map, Bounds& bounds) {
@@ -31,7 +39,7 @@ std::vector<Record> bring_into_frame(const SurfaceGrid& grid, const std::vector<
         const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
         bounds.low = min(bounds.low, local), bounds.high = max(bounds.high, local);
         records.push_back({local, p.origin & 0xffffu, pack_rgb9e5(p.flux * map.flux_scale),
-                           map.has_directions() ? pack_direction(p.from) : 0});
+                           map.has_directions() ? pack_direction(p.from, dither_of(chosen[i])) : uint16_t(0)});
     }
     return records;
 }

@@ -20,7 +20,7 @@ bool is_matte(const Material& m) {
 PlaneMaps::PlaneMaps(const Scene& scene, const PhotonMap& map)
     : plane_(map.grids.size(), 1), matte_(map.grids.size(), 1), heights_(map.grids.size(), -1e30f) {
     std::vector<float> lowest(map.grids.size(), 1e30f);
-    for (size_t side = 0; side < std::min(map.triangle_maps.size(), 2 * scene.triangles.size()); ++side) {
+    for (size_t side = 0; side < map.triangle_maps.size(); ++side) {
         map.for_each_map(map.triangle_maps[side], [&](uint m) {
             const SurfaceGrid& grid = map.grids[m];
             if (matte_[m] && !is_matte(scene.material_of(uint(side / 2)))) matte_[m] = 0;

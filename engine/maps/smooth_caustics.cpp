@@ -66,20 +66,19 @@ class CausticNodes : public PhotonEstimator {
 
 }  // namespace
 
-void add_smooth_caustics(const Scene& scene, const std::vector<NodePoint>& nodes, PhotonMap& map) {
-    std::vector<uint> records = std::move(map.irradiance);  // the estimator needs no light of cells
-    map.irradiance.clear();
+std::vector<uint> add_smooth_caustics(const Scene& scene, const std::vector<NodePoint>& nodes, const PhotonMap& map,
+                                      std::vector<uint>& irradiance) {
     const CausticNodes caustics(scene, map, nodes);
     std::vector<char> smooth(nodes.size(), 0);
     parallel_for(map.grids.size() - map.caustic_grids, [&](size_t m) {
         const SurfaceLattice& lattice = map.grids[m].lattice;
         for (uint n = lattice.first_node; n < lattice.first_node + lattice.columns * lattice.rows; ++n)
-            smooth[n] = caustics.add(uint(m), n, records);
+            smooth[n] = caustics.add(uint(m), n, irradiance);
     });
-    map.irradiance = std::move(records);
-    map.smooth_caustics.assign((nodes.size() + 31) / 32, 0);
+    std::vector<uint> marks((nodes.size() + 31) / 32, 0);
     for (size_t n = 0; n < nodes.size(); ++n)
-        if (smooth[n]) map.smooth_caustics[n / 32] |= 1u << (n % 32);
+        if (smooth[n]) marks[n / 32] |= 1u << (n % 32);
+    return marks;
 }
 
 }  // namespace lw

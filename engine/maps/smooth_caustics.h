@@ -4,9 +4,11 @@
 
 namespace lw {
 
-/// Adds to map.irradiance what caustic photons bring to the nodes whose kernel of caustic_neighbours photons is no narrower
-/// than 1.5 steps of their lattice, and marks them in map.smooth_caustics. Expects all grids, `nodes` of their lattices.
+/// Adds to the irradiance of find_irradiance() what caustic photons bring to the nodes whose kernel of caustic_neighbours
+/// photons is no narrower than 1.5 steps of their lattice; returns a bit for each node, set for those
+/// (PhotonMap::smooth_caustics). Expects all grids, `nodes` of their lattices.
 /// A map that leaves lamps to shadow rays only: cells without bits of lamps have no place for the marks.
-void add_smooth_caustics(const Scene& scene, const std::vector<NodePoint>& nodes, PhotonMap& map);
+std::vector<uint> add_smooth_caustics(const Scene& scene, const std::vector<NodePoint>& nodes, const PhotonMap& map,
+                                      std::vector<uint>& irradiance);
 
 }  // namespace lw

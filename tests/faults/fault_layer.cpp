@@ -106,8 +106,11 @@ VKAPI_ATTR void VKAPI_CALL get_memory2(VkPhysicalDevice device, VkPhysicalDevice
             std::min<uint64_t>(memory->memoryProperties.memoryHeaps[i].size, most);
     for (auto* p = static_cast<VkBaseOutStructure*>(memory->pNext); p; p = p->pNext)
         if (p->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT)
-            for (VkDeviceSize& budget : reinterpret_cast<VkPhysicalDeviceMemoryBudgetPropertiesEXT*>(p)->heapBudget)
-                budget = std::min<uint64_t>(budget, most);
+            for (uint32_t i = 0; i < VK_MAX_MEMORY_HEAPS; ++i) {
+                auto* told = reinterpret_cast<VkPhysicalDeviceMemoryBudgetPropertiesEXT*>(p);
+                told->heapBudget[i] = std::min<uint64_t>(told->heapBudget[i], most);
+                told->heapUsage[i] = 0;  // some drivers count what the whole machine uses
+            }
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo2* what, VkFence fence) {

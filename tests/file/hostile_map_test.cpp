@@ -23,7 +23,7 @@
 namespace lw::test {
 namespace {
 
-constexpr size_t header_bytes = 176;
+constexpr size_t header_bytes = 200;
 
 /// The bytes of a small map of scene_of_maps().
 std::string small_map(uint64_t photons, bool direct_in_photons) {

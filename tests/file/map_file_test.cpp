@@ -50,6 +50,8 @@ TEST_F(MapFile, RoundTrips) {
     EXPECT_EQ(std::memcmp(got.places.data(), map.places.data(), map.places.size() * sizeof(PhotonPlace)), 0);
     EXPECT_EQ(got.fluxes, map.fluxes);
     EXPECT_EQ(got.triangle_maps, map.triangle_maps);
+    const size_t records = map.coverage.size() * scene.lights.size();
+    for (size_t i = 0; i < records; ++i) ASSERT_EQ(got.irradiance[i], map.irradiance[i]);
 }
 
 TEST_F(MapFile, CutAtEveryLengthIsRefused) {
@@ -109,13 +111,16 @@ TEST_F(MapFile, SignedMapsThatLeadOutOfTheirArraysAreRefused) {
     refused([](PhotonMap& m) { m.coverage.pop_back(); });
     refused([](PhotonMap& m) { m.coverage.clear(); });
     refused([](PhotonMap& m) { m.coverage.clear(), m.visible_lamps.clear(); });
-    refused([](PhotonMap& m) { m.coverage.clear(), m.visible_lamps.clear(), m.irradiance.clear(); });
+    refused([](PhotonMap& m) { m.coverage.clear(), m.visible_lamps.clear(), m.irradiance = {}; });
     refused([](PhotonMap& m) { m.visible_lamps.pop_back(); });
-    refused([](PhotonMap& m) { m.irradiance.pop_back(); });
+    refused([](PhotonMap& m) { m.irradiance.values.pop_back(); });
+    refused([](PhotonMap& m) { m.irradiance.marks.pop_back(); });
+    refused([](PhotonMap& m) { m.irradiance.marks.push_back(0); });
+    refused([](PhotonMap& m) { m.caustic_sides = SparseWords(std::vector<uint>(m.triangle_maps.size(), 0)); });
     refused([](PhotonMap& m) { m.shadow_masks.push_back({uint(m.coverage.size()), 0, 1, 0, 0}); });
     refused([](PhotonMap& m) { m.shadow_masks.push_back({0, uint(m.emitted.size()), 1, 0, 0}); });
     refused([](PhotonMap& m) { m.shadow_masks.assign(2, {0, 0, 1, 0, 0}); });
-    refused([](PhotonMap& m) { m.irradiance.clear(); });
+    refused([](PhotonMap& m) { m.irradiance = {}; });
     refused([](PhotonMap& m) { m.places.pop_back(); });
     refused([](PhotonMap& m) { m.places[0].h_light_and_path |= light_mask << 16; });
     refused([](PhotonMap& m) { m.triangle_maps[0] = uint(m.grids.size()); });
@@ -136,6 +141,8 @@ TEST_F(MapFile, WithCausticsRoundTripsAndIsRefusedWhenTheirGridsAreMixedUp) {
     const PhotonMap got = load_photon_map(path, glass);
     EXPECT_EQ(got.caustic_grids, good.caustic_grids);
     EXPECT_EQ(got.triangle_maps, good.triangle_maps);
+    for (size_t side = 0; side < good.triangle_maps.size(); ++side)
+        ASSERT_EQ(got.caustic_map_of(side), good.caustic_map_of(side));
     const auto refused = [&](const auto& damage) {
         PhotonMap bad = good;
         damage(bad);
@@ -147,8 +154,9 @@ TEST_F(MapFile, WithCausticsRoundTripsAndIsRefusedWhenTheirGridsAreMixedUp) {
     refused([](PhotonMap& m) { m.smooth_caustics.pop_back(); });
     refused([](PhotonMap& m) { --m.caustic_grids; });
     refused([](PhotonMap& m) { m.triangle_maps[0] = uint(m.grids.size()) - 1; });
-    refused([](PhotonMap& m) { m.triangle_maps.back() = 0; });
-    refused([](PhotonMap& m) { m.triangle_maps.resize(m.triangle_maps.size() / 2); });
+    refused([](PhotonMap& m) { m.caustic_sides.values.back() = 1; });
+    refused([](PhotonMap& m) { m.caustic_sides.values.back() = uint(m.grids.size()) + 1; });
+    refused([](PhotonMap& m) { m.caustic_sides = {}; });
 }
 
 TEST_F(MapFile, SignedGridsThatLeadOutOfTheirArraysAreRefused) {

@@ -56,7 +56,6 @@ double bytes_per_photon(const PhotonMap& map) {
 
 CaseOnDevice::CaseOnDevice(const Device& device, const BakedCase& baked) : device_(device) {
     const Bvh bvh = baked.map.settings.direct_in_photons ? Bvh{} : build_bvh(baked.scene);
-    bvh_bytes_ = bvh.nodes.size() * sizeof(BvhNode) + bvh.triangles.size() * sizeof(uint);
     resident_ = std::make_unique<Resident>(device, baked.scene, baked.map, bvh);
 }
 

@@ -78,11 +78,10 @@ class CaseOnDevice {
     uint64_t bytes() const { return resident_->bytes(); }
     /// What the shaders of a gather are compiled with.
     ShaderConstants constants(const GatherSettings& gather) const { return constants_for(*resident_, gather); }
-    uint64_t bvh_bytes() const { return bvh_bytes_; }
+    uint64_t ray_bytes() const { return resident_->ray_bytes(); }
 
   private:
     const Device& device_;
-    uint64_t bvh_bytes_;
     std::unique_ptr<Resident> resident_;
 };
 

@@ -51,10 +51,10 @@ size_t bytes_of_array(const std::vector<T>& values) {
 /// Bytes of the arrays that only a feature needs.
 void add_feature_bytes(Row& row, const BakedCase& baked, const CaseOnDevice& on_device) {
     row["direction_bytes"] = bytes_of_array(baked.map.directions);
-    row["shadow_ray_bytes"] = on_device.bvh_bytes();
+    row["shadow_ray_bytes"] = on_device.ray_bytes();
     row["texture_bytes"] = bytes_of_array(baked.scene.texels) + bytes_of_array(baked.scene.textures) +
                            bytes_of_array(baked.scene.uv0) + bytes_of_array(baked.scene.uv1);
-    row["caustic_bytes"] = baked.map.smooth_caustics.size() * sizeof(baked.map.smooth_caustics[0]);
+    row["caustic_bytes"] = bytes_of_array(baked.map.smooth_caustics) + baked.map.caustic_sides.bytes();
     row["lamp_bytes"] = bytes_of_array(baked.scene.lights) + baked.scene.lights.size() * sizeof(LampPower);
 }
 

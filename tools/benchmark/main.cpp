@@ -51,7 +51,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_flag("--quick", o.quick, "fewer photons, pixels and samples: minutes on two cores");
     app.add_option("--only", o.only, "measure this section; may be repeated")->check(CLI::IsMember(names));
     app.add_option("--device", o.device, "part of the name of a Vulkan device; default: the fastest kind");
-    app.add_option("--rays", o.rays, "who traces the rays of a picture: queries (by the device, where it can), compute, or fastest of both")
+    app.add_option("--rays", o.rays, lw::rays_help)
         ->check(CLI::IsMember(lw::rays_names))
         ->capture_default_str();
     app.add_option("-o,--output", o.folder, "folder for benchmark.csv, benchmark.json, a CSV per table and references/")
@@ -110,7 +110,7 @@ std::string report_of(const std::vector<lw::Table>& tables, const lw::Row& condi
 void run(const Options& o) {
     check_document(o);
     const lw::ThreadLimit limit(o.threads);
-    const lw::Device device({o.device, false, {}, 0, lw::rays_named(o.rays)});
+    const lw::Device device({.name = o.device, .rays = lw::rays_named(o.rays)});
     std::filesystem::create_directories(o.folder);
     const lw::Bench bench{device, o.folder, o.scenes, o.quick};
     const lw::Row conditions = conditions_of(o, device);
