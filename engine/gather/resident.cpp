@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "gather/device_fit.h"
 
 namespace lw {
 namespace {
@@ -30,11 +31,6 @@ std::vector<Binding> scene_bindings(bool queries_rays) {
     return bindings;
 }
 
-std::string mebibytes(uint64_t bytes) {
-    if (bytes < 1u << 20) return std::to_string((bytes + 1023) >> 10) + " KiB";
-    return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB";
-}
-
 uint chunk_count(uint64_t records, uint shift) {
     return uint(std::max<uint64_t>(1, (records + (1ull << shift) - 1) >> shift));
 }
@@ -56,43 +52,6 @@ float narrowest_roughness(const Scene& scene) {
         if ((m.metallic > 0 || m.specular > 0) && !(m.flags & material_unlit))
             least = std::min(least, m.metallic_roughness_texture.texture >= 0 ? 0.0f : m.roughness);
     return least;
-}
-
-/// Bytes that the scene and the map take on the device: corners of triangles, textures, the map with the light of its
-/// cells.
-uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
-    const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
-    // An acceleration structure and what building it takes; on Mesa's software rasterizer 70 bytes stay.
-    const uint64_t rays_per_triangle = queries_rays ? 200 : 0;
-    const uint64_t corner = 32 + (s.uv1.empty() ? 0 : 8) + (s.colors.empty() ? 0 : 16) + (s.tangents.empty() ? 0 : 16);
-    return s.triangles.size() * (3 * corner + sizeof(uvec4) + rays_per_triangle) + bytes(s.texels) + m.bytes() +
-           m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
-}
-
-/// Photons of a map that fits beside `others` bytes, one significant digit: a map grows with its photons.
-uint64_t photons_that_fit(const PhotonMap& map, uint64_t others, uint64_t budget) {
-    if (others >= budget) return 0;
-    const double share = double(budget - others) / double(std::max<uint64_t>(map.bytes(), 1));
-    const auto most = uint64_t(double(map.settings.photons) * std::min(share, 1.0));
-    uint64_t step = 1;
-    while (most / step >= 10) step *= 10;
-    return most / step * step;
-}
-
-void check_device(const Device& device, const Scene& scene, const PhotonMap& map, bool queries_rays) {
-    const uint32_t needed = texel_binding_count + 3 * (most_chunks - 1) + 1;
-    const uint32_t has = device.limits().maxPerStageDescriptorSampledImages;
-    if (has < needed)
-        throw Error(device.name() + ": binds " + std::to_string(has) + " textures, " + std::to_string(needed) +
-                    " are needed");
-    const uint64_t bytes = total_bytes(scene, map, queries_rays), budget = device.memory_budget();
-    if (bytes <= budget) return;
-    const uint64_t without_photons = bytes - std::min(bytes, map.bytes()),
-                   most = photons_that_fit(map, without_photons, budget);
-    throw Error(
-        device.name() + ": scene and photons take " + mebibytes(bytes) + ", " + mebibytes(budget) +
-        " may be used (--device-memory)" +
-        (most ? "; a map of " + std::to_string(most) + " photons would fit" : "; the scene alone does not fit"));
 }
 
 std::vector<Resident::Cluster> find_clusters(const Scene& scene) {

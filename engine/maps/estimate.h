@@ -1,6 +1,7 @@
 // Density estimation and direct light on the CPU: the text of shaders/gather.glsl and direct.glsl over a PhotonMap; the
 // oracle of the gather shader.
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "maps/cells.h"
@@ -55,7 +56,7 @@ class PhotonEstimator : public SurfaceReader {
           has_shadow_rays(settings.shadow_rays > 0),
           has_followed(!bvh.nodes.empty()),
           looks_through(!bvh.nodes.empty()),
-          followed_roughness(settings.shadow_rays > 0 ? settings.followed_roughness : std::sqrt(smallest_alpha)),
+          followed_roughness(settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f) : std::sqrt(smallest_alpha)),
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
         if (map.irradiance.empty()) return;
         const CellLight cells(scene, map);

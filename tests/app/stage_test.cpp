@@ -13,7 +13,7 @@
 namespace lw {
 namespace {
 
-constexpr vk::Extent2D size{96, 80};  // of the room's pictures
+constexpr vk::Extent2D size{96, 128};  // of the room's pictures; a band begins with a sixteenth of the rows, 8 of them
 
 /// Largest difference of a channel of two screens over columns [first, end).
 int largest_difference(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, uint first, uint end) {
@@ -171,6 +171,27 @@ TEST(Stage, AddsASlowSampleInBandsAndThePictureIsTheSame) {
     EXPECT_EQ(room.stage.times(0).rows, 8u) << "the cost of another view says nothing of this one";
     room.frame({{}, 5});
     EXPECT_EQ(room.stage.times(0).rows, 16u) << "at most twice the rows of the band before";
+}
+
+TEST(Stage, BandsOfAComparisonEndInTheSamePicture) {
+    SKIP_WITHOUT_LAVAPIPE();
+    Room room;
+    room.shot.most_samples = 2;
+    room.shot.lamps_b = {vec3(0.3f, 0.2f, 0.1f)};
+    Look look{{}, 5};
+    look.kind.has_split = true;
+    const std::vector<uint32_t> first = room.frame(look), second = room.frame(look);
+    ASSERT_NE(first, second);
+    room.stage.forget();
+    room.shot.most_ms = 1e-6;
+    EXPECT_EQ(room.frame(look), first);
+    std::vector<uint32_t> seen;
+    for (uint band = 0; band < size.height / 8; ++band) {
+        ASSERT_FALSE(room.stage.is_finished(room.shot)) << band;
+        seen = room.frame(look);
+    }
+    EXPECT_TRUE(room.stage.is_finished(room.shot));
+    EXPECT_EQ(seen, second);
 }
 
 TEST(Stage, InMotionHasFewerPixelsAndSharpensWhenStill) {

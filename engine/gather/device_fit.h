@@ -1,0 +1,17 @@
+// Whether a scene and its map fit on a device: asked before anything is allocated.
+#pragma once
+#include <string>
+
+#include "gpu/device.h"
+#include "maps/photon_map.h"
+#include "scene/scene.h"
+
+namespace lw {
+
+/// Throws Error telling what the device lacks, or what would fit into its memory. `queries_rays`: Resident::queries_rays().
+void check_device(const Device& device, const Scene& scene, const PhotonMap& map, bool queries_rays);
+
+/// Rounded up, with its unit.
+std::string mebibytes(uint64_t bytes);
+
+}  // namespace lw
