@@ -30,7 +30,7 @@ Counts counts_of(const Scene& scene, const BakeSettings& settings) {
 double bytes_of(const Counts& c) {
     constexpr double program = 2e7, per_triangle = 650;
     constexpr double tracing = 75;  // a photon in the vectors of its task, and where they are joined
-    constexpr double building = 75, per_sample = 70, per_node = 64, per_node_and_lamp = 20;
+    constexpr double building = 85, per_sample = 70, per_node = 64, per_node_and_lamp = 20;
     const double maps =
         building * c.photons + per_sample * c.samples + (per_node + per_node_and_lamp * c.lamps) * c.nodes;
     return program + per_triangle * c.triangles + std::max(tracing * c.photons, maps);
