@@ -190,7 +190,8 @@ std::string list_of_tasks() {
     return text;
 }
 
-void add_options(CLI::App& app, Options& o) {
+/// What is measured, in which light.
+void add_subject(CLI::App& app, Options& o) {
     app.add_option("scene", o.scene, "glTF 2.0 file, .gltf or .glb")->required();
     app.add_option("map", o.map, "photon map (default: beside the scene, .pmap)");
     app.add_option("--points", o.points, "CSV file of rows name,x,y,z[,nx,ny,nz[,planar|cylindrical]] in metres, Y up")
@@ -215,6 +216,10 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--maintenance", o.survey.maintenance, "maintenance factor: part of the light that is left")
         ->capture_default_str()
         ->check(CLI::Range(0.01, 1.0));
+}
+
+/// How exactly.
+void add_effort(CLI::App& app, Options& o) {
     app.add_option(
            "--error", o.error_percent,
            "percent: traces rays and bakes until half the 90 % interval of every sensor over 1 lx is below; starts "
@@ -232,11 +237,17 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--rays", o.survey.meter.rays, "least rays per sensor; more are traced where they are the error")
         ->capture_default_str()
         ->check(CLI::Range(8u, 1u << 20));
+}
+
+void add_reports(CLI::App& app, Options& o) {
     app.add_option("--csv", o.csv, "file of one row per sensor and ambiance, with the share of each lamp");
     app.add_option("--fields-csv", o.fields_csv, "file of one row per grid or surface and ambiance");
     app.add_option("--report", o.report, "self-contained HTML report: tables, plans with isolux lines, camera views");
     app.add_option("--camera", o.cameras, "camera to show in the report in false colours; may be repeated")
         ->allow_extra_args(false);
+}
+
+void add_reflections(CLI::App& app, Options& o) {
     app.add_option(
         "--reflections", o.reflections,
         "camera, or file of a recorded walk (.json), whose views are searched for bright reflections of lamps; "
@@ -254,6 +265,13 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--least-solid-angle", o.limits.solid_angle, "sr of a reflection")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 12.6));
+}
+
+void add_options(CLI::App& app, Options& o) {
+    add_subject(app, o);
+    add_effort(app, o);
+    add_reports(app, o);
+    add_reflections(app, o);
     app.add_option("--seed", o.survey.meter.seed, "seed of the random numbers")->capture_default_str();
     app.add_option("--ies", o.photometry,
                    "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
