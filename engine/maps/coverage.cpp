@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "base/parallel.h"
+#include "base/wide_vectors.h"
+#include "maps/weighing.h"
 #include "scene/surface.h"
 #include "trace/sampling.h"
 
@@ -21,8 +24,8 @@ class MapSamples {
         : cell_(grid.radius * 0.5f), radius_(grid.radius) {
         const CoverageLevels radii = radii_of_levels(grid);
         for (uint level = 0; level < coverage_levels; ++level) {
-            radii2_[level] = radii[level] * radii[level];
-            peaks_[level] = 2 / (lw_pi * radii2_[level]);
+            inverse_radii2_[level] = 1 / (radii[level] * radii[level]);
+            peaks_[level] = 2 / lw_pi * inverse_radii2_[level];
         }
         vec2 high(-1e30f);
         low_ = vec2(1e30f);
@@ -40,8 +43,11 @@ class MapSamples {
         for (const vec4& s : unsorted) ++starts_[cell_of(s) + 1];
         for (size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
         std::vector<uint> next(starts_.begin(), starts_.end() - 1);
-        sorted_.resize(unsorted.size());
-        for (const vec4& s : unsorted) sorted_[next[cell_of(s)]++] = s;
+        for (std::vector<float>* values : {&u_, &v_, &h_, &area_}) values->resize(unsorted.size());
+        for (const vec4& s : unsorted) {
+            const uint i = next[cell_of(s)]++;
+            u_[i] = s.x, v_[i] = s.y, h_[i] = s.z, area_[i] = s.w;
+        }
     }
 
     /// Sum of area x kernel at `local`, for the kernels of all levels.
@@ -51,8 +57,9 @@ class MapSamples {
         const int y0 = std::max(row(local.y - radius_), 0), y1 = std::min(row(local.y + radius_), rows_ - 1);
         for (int y = y0; y <= y1 && x0 <= x1; ++y) {
             const size_t line = size_t(y) * size_t(columns_);
-            for (uint i = starts_[line + size_t(x0)]; i < starts_[line + size_t(x1) + 1]; ++i)
-                add_kernels(sorted_[i], local, max_radius, sums);
+            const uint last = starts_[line + size_t(x1) + 1];
+            for (uint i = starts_[line + size_t(x0)]; i < last; i += run_length)
+                add_run(i, std::min(last - i, run_length), local, max_radius, sums);
         }
         return sums;
     }
@@ -64,20 +71,31 @@ class MapSamples {
         return size_t(std::min(row(s.y), rows_ - 1)) * size_t(columns_) + size_t(std::min(column(s.x), columns_ - 1));
     }
 
-    void add_kernels(const vec4& sample, vec3 local, float max_radius, CoverageLevels& sums) const {
-        const vec3 d = vec3(sample) - local;
-        const float d2 = dot(d, d);
-        if (d2 >= radius_ * radius_ || !on_same_surface(d.z, d2, max_radius)) return;
-        for (uint level = coverage_levels; level-- > 0 && d2 < radii2_[level];)
-            sums[level] += sample.w * peaks_[level] * (1 - d2 / radii2_[level]);
+    /// Without branches, in vectors: a run of samples, then one level after the other.
+    LW_WIDE_VECTORS void add_run(uint first, uint count, vec3 local, float max_radius, CoverageLevels& sums) const {
+        std::array<float, run_length> squared{}, areas{};
+        const float *u = &u_[first], *v = &v_[first], *h = &h_[first], *area = &area_[first];
+        for (uint i = 0; i < count; ++i) {
+            const float du = u[i] - local.x, dv = v[i] - local.y, dh = h[i] - local.z;
+            squared[i] = du * du + dv * dv + dh * dh;
+            areas[i] = area[i] * share_of_surface(dh, squared[i], max_radius);
+        }
+        for (uint level = 0; level < coverage_levels; ++level) {
+            std::array<float, lanes> parts{};
+            for (uint i = 0; i < count; i += lanes)
+                for (uint lane = 0; lane < lanes; ++lane)
+                    parts[lane] += areas[i + lane] * positive(1 - squared[i + lane] * inverse_radii2_[level]);
+            sums[level] += peaks_[level] * std::accumulate(parts.begin(), parts.end(), 0.0f);
+        }
     }
 
+    static constexpr uint run_length = 64, lanes = 8;
     float cell_, radius_;
-    CoverageLevels radii2_{}, peaks_{};  // m2 of each kernel, and its value at the centre
+    CoverageLevels inverse_radii2_{}, peaks_{};  // 1/m2 of each kernel, and its value at the centre
     vec2 low_{0};
     int columns_ = 0, rows_ = 0;
     std::vector<uint> starts_;
-    std::vector<vec4> sorted_;  // u, v, h, area
+    std::vector<float> u_, v_, h_, area_;  // in the order of the cells
 };
 
 double triangle_area(const Scene& scene, size_t triangle) {
@@ -154,10 +172,21 @@ bool WantedSamples::contain(size_t side, vec3 position) const {
     return is_wanted[own] || std::any_of(near.begin(), near.end(), [&](uint patch) { return is_wanted[patch]; });
 }
 
+std::vector<char> WantedSamples::sides() const {
+    std::vector<char> near(patches.count), wanted;
+    for (uint patch = 0; patch < patches.count; ++patch) {
+        const auto all = neighbours.of(patch);
+        near[patch] = is_wanted[patch] || std::any_of(all.begin(), all.end(), [&](uint p) { return is_wanted[p]; });
+    }
+    for (uint patch : patches.of_side) wanted.push_back(patch >= patches.count || near[patch]);  // a cut: its pieces
+    return wanted;
+}
+
 std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted,
                                     float area, float clearance) {
     constexpr size_t chunk = 1024;
     const std::vector<float> shares = areas_of_samples(scene, wanted.patches, area);
+    const std::vector<char> sides = wanted.sides();
     std::vector<uint> counts(scene.triangles.size());
     double waiting = 0.5;
     for (size_t t = 0; t < counts.size(); ++t) {
@@ -168,6 +197,7 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
     std::vector<std::vector<Photon>> chunks((counts.size() + chunk - 1) / chunk);
     parallel_for(chunks.size(), [&](size_t k) {
         for (size_t t = k * chunk; t < std::min(counts.size(), (k + 1) * chunk); ++t) {
+            if (!sides[2 * t] && !sides[2 * t + 1]) continue;
             const auto scramble = uint32_t(mix64(t));
             const uvec3 c = scene.triangles[t];
             const vec3 p0 = scene.positions[c.x], p1 = scene.positions[c.y], p2 = scene.positions[c.z];
@@ -190,6 +220,8 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
         }
     });
     std::vector<Photon> samples;
+    samples.reserve(std::accumulate(chunks.begin(), chunks.end(), size_t(0),
+                                    [](size_t sum, const std::vector<Photon>& part) { return sum + part.size(); }));
     for (const auto& part : chunks) samples.insert(samples.end(), part.begin(), part.end());
     return samples;
 }

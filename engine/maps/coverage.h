@@ -43,6 +43,8 @@ struct WantedSamples {
 
     /// False only when a sample there belongs to no patch that needs any.
     bool contain(size_t side, vec3 position) const;
+    /// For each side of the triangles: false when contain() is, everywhere on it.
+    std::vector<char> sides() const;
 };
 
 /// Evenly spread points on the sides of triangles, those that are wanted and without those that lie closer than

@@ -31,9 +31,9 @@ std::vector<Record> bring_into_frame(const SurfaceGrid& grid, const std::vector<
                                      std::span<const uint> chosen, const PhotonMap& map, Bounds& bounds) {
     std::vector<Record> records;
     records.reserve(chosen.size());
-    constexpr size_t ahead = 24;  // records on their way from memory: photons lie in the order of their paths
+    constexpr size_t ahead = 24;  // records on their way from memory
     for (size_t i = 0; i < chosen.size(); ++i) {
-        if (i + ahead < chosen.size()) __builtin_prefetch(&photons[chosen[i + ahead]]);
+        if (i + ahead < chosen.size()) prefetch(photons[chosen[i + ahead]]);
         const Photon& p = photons[chosen[i]];
         const vec3 offset = p.position - grid.origin;
         const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));

@@ -23,6 +23,12 @@ class Neighbours {
         return {c.list.data() + start[0], c.list.data() + start[1]};
     }
 
+    /// The candidates of all cells of a patch; some more than once.
+    std::span<const uint> of(uint patch) const {
+        const PatchCells& c = cells_[patch];
+        return std::span(c.list).subspan(2 * c.columns * c.rows);
+    }
+
   private:
     struct PatchCells {
         vec3 u_row{0}, v_row{0};  // from positions to cells

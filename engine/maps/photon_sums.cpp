@@ -3,23 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+
+#include "base/wide_vectors.h"
+#include "maps/weighing.h"
 
 namespace lw {
 namespace {
 
-/// Four floats in a register: vectors of GCC and Clang, plain x86-64 has the instructions.
-using Floats = float __attribute__((vector_size(16)));
-constexpr size_t lanes = 4;
 constexpr size_t run_length = 128;  // photons weighed at once
-
-Floats load(const float* values) {
-    Floats loaded;
-    std::memcpy(&loaded, values, sizeof loaded);
-    return loaded;
-}
-
-Floats positive(Floats x) { return x > 0 ? x : Floats{}; }
 
 int cell_at(float metres, float cell_size, uint count) {
     return int(clamp(std::floor(metres / cell_size), -1.0f, float(count)));
@@ -33,7 +24,7 @@ PhotonSums::PhotonSums(const PhotonMap& map, const SurfaceGrid& grid)
       first_(starts_[0]),
       max_radius_(map.settings.radius) {
     const size_t count = starts_[grid.columns * grid.rows] - first_;
-    for (std::vector<float>* places : {&u_, &v_, &h_}) places->resize(count + lanes);  // whole registers are read
+    for (std::vector<float>* places : {&u_, &v_, &h_}) places->resize(count);
     fluxes_.resize(count);
     lamps_.resize(count);
     for (size_t i = 0; i < count; ++i) {
@@ -60,20 +51,22 @@ void PhotonSums::add(vec3 local, float radius, std::span<vec4> sums) const {
     }
 }
 
+/// 1 - d2 / radius2 of `count` photons, 0 of those outside or not on the same surface.
+LW_WIDE_VECTORS void PhotonSums::weigh(size_t first, size_t count, vec3 local, float inverse_radius2,
+                                       float* weights) const {
+    const float *u = &u_[first], *v = &v_[first], *h = &h_[first], max_radius = max_radius_;
+    for (size_t i = 0; i < count; ++i) {
+        const float du = u[i] - local.x, dv = v[i] - local.y, dh = h[i] - local.z;
+        const float d2 = du * du + dv * dv + dh * dh;
+        weights[i] = positive(1 - d2 * inverse_radius2) * share_of_surface(dh, d2, max_radius);
+    }
+}
+
 void PhotonSums::add_run(size_t first, size_t last, vec3 local, float inverse_radius2, std::span<vec4> sums) const {
     std::array<float, run_length> weights;
-    const float tolerance = 0.01f * max_radius_;  // of on_same_surface(), written out for vectors
     for (; first < last; first += run_length) {
         const size_t count = std::min(last - first, run_length);
-        for (size_t i = 0; i < count; i += lanes) {
-            const Floats du = load(&u_[first + i]) - local.x, dv = load(&v_[first + i]) - local.y,
-                         dh = load(&h_[first + i]) - local.z;
-            const Floats d2 = du * du + dv * dv + dh * dh;
-            const Floats excess = positive((dh < 0 ? -dh : dh) - tolerance);
-            const Floats weight = positive(1 - d2 * inverse_radius2);
-            const Floats kept = excess * excess <= 0.75f * d2 ? weight : Floats{};
-            std::memcpy(&weights[i], &kept, sizeof kept);
-        }
+        weigh(first, count, local, inverse_radius2, weights.data());
         for (size_t i = 0; i < count; ++i)
             sums[sums_per_lamp * lamps_[first + i] + i % sums_per_lamp] += fluxes_[first + i] * weights[i];
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -14,42 +15,91 @@ namespace lw {
 namespace {
 
 constexpr size_t most_tasks = 64;
-constexpr float same_plane = 0.999f;        // least cosine between normals
-constexpr uint first_of_photon = 1u << 31;  // marks the map of the photon's own side
+constexpr size_t smallest_task = 8192;
+constexpr float same_plane = 0.999f;       // least cosine between normals
+constexpr float one_plane = 0.9999999f;    // the same of triangles that share a normal
+constexpr uint moved_out = ~0u;       // in place of a photon that its own patch does not keep
 
-/// The maps of the photons [begin, end) one after another, and how many references each map has among them.
+/// A reference to a photon of another patch.
+struct Foreign {
+    uint patch, photon;
+};
+
+/// The photons [begin, end) of an order, and what was found of them for each patch.
 struct Task {
     size_t begin, end;
-    std::vector<uint> maps, counts;
+    std::vector<uint> counts;
+    std::vector<Foreign> foreign{};
 };
 
 float largest_of(const std::vector<float>& radii) {
     return radii.empty() ? 0.0f : *std::max_element(radii.begin(), radii.end());
 }
 
+/// Three coordinates in a register: a photon meets ten patches where there is much furniture, and most are too far.
+using Floats = float __attribute__((vector_size(16)));
+
+Floats floats(vec3 v) { return Floats{v.x, v.y, v.z, 0}; }
+vec3 vector(Floats v) { return {v[0], v[1], v[2]}; }
+
+/// How far a point lies outside a box, along each axis.
+Floats outside_of(Floats low, Floats high, Floats at) {
+    const Floats below = low - at, above = at - high, more = below > above ? below : above;
+    return more > 0 ? more : Floats{};
+}
+
+float squared(Floats v) {
+    const Floats squares = v * v;
+    return squares[0] + squares[1] + squares[2];
+}
+
+/// The boxes of a PatchShape, and its frame by columns.
+struct PatchBoxes {
+    explicit PatchBoxes(const PatchShape& s)
+        : anchor(floats(s.anchor)),
+          frame{Floats{s.u_axis.x, s.v_axis.x, s.normal.x}, Floats{s.u_axis.y, s.v_axis.y, s.normal.y},
+                Floats{s.u_axis.z, s.v_axis.z, s.normal.z}},
+          low(floats(s.low)),
+          high(floats(s.high)),
+          box_low(floats(s.box_low)),
+          box_high(floats(s.box_high)) {}
+
+    Floats to_local(Floats position) const {
+        const Floats offset = position - anchor;
+        return frame[0] * offset[0] + frame[1] * offset[1] + frame[2] * offset[2];
+    }
+
+    Floats anchor;
+    std::array<Floats, 3> frame;
+    Floats low, high, box_low, box_high;
+};
+
 /// Finds the maps of one photon after another.
 class MapFinder {
   public:
     explicit MapFinder(const ReferenceInput& input)
         : in_(input),
+          boxes_(input.shapes.begin(), input.shapes.end()),
           largest_(largest_of(input.radii)),
           cos_angle_(std::cos(glm::radians(input.neighbour_angle_deg))) {}
 
-    /// Appends every map that refers to the photon, its own first and marked.
-    void find(const Photon& photon, std::vector<uint>& found) const {
-        const uint own = in_.patches.at(2 * photon.triangle + photon.side(), photon.position);
-        const std::span<const uint> near = in_.neighbours.near(own, photon.position);
-        if (near.empty()) return found.push_back(own | first_of_photon);
+    /// Appends every other patch than its `own` that refers to a photon. Returns whether its own does.
+    bool find(uint photon, uint own, std::vector<Foreign>& found) const {
+        const Photon& p = in_.photons[photon];
+        const std::span<const uint> near = in_.neighbours.near(own, p.position);
+        if (near.empty()) return true;
         const size_t first = found.size();
-        const vec3 normal = normal_of(photon);
-        const bool stays = is_before_the_wall(photon.position, normal, own);
-        if (stays) found.push_back(own | first_of_photon);
+        const vec3 normal = in_.shapes[own].cos_spread > one_plane ? in_.shapes[own].normal : normal_of(p);
+        const bool stays = is_before_the_wall(p.position, normal, own);
         for (uint patch : near)
-            if (belongs(photon.position, normal, patch) && is_in_sight(photon.position, normal, patch))
-                found.push_back(patch);
-        if (stays) return;
-        if (found.size() == first) found.push_back(own);
-        found[first] |= first_of_photon;
+            if (belongs(p.position, normal, patch) && is_in_sight(p.position, normal, patch))
+                found.push_back({patch, photon});
+        return stays || found.size() == first;
+    }
+
+    uint own_patch(uint photon) const {
+        const Photon& p = in_.photons[photon];
+        return in_.patches.at(2 * p.triangle + p.side(), p.position);
     }
 
   private:
@@ -62,21 +112,21 @@ class MapFinder {
     }
 
     bool belongs(vec3 position, vec3 normal, uint patch) const {
-        const PatchShape& shape = in_.shapes[patch];
+        const PatchBoxes& boxes = boxes_[patch];
+        const Floats at = floats(position), local = boxes.to_local(at);
+        const Floats outside = outside_of(boxes.low, boxes.high, local);
         const float radius2 = in_.radii[patch] * in_.radii[patch];
-        const vec3 local = shape.to_local(position);
-        const vec3 outside = max(max(shape.low - local, local - shape.high), vec3(0));
-        float distance2 = dot(outside, outside);
+        float distance2 = squared(outside);
         if (distance2 > radius2) return false;
-        const vec3 beside = max(max(shape.box_low - position, position - shape.box_high), vec3(0));
-        if (dot(beside, beside) > largest_ * largest_) return false;
+        if (squared(outside_of(boxes.box_low, boxes.box_high, at)) > largest_ * largest_) return false;
+        const PatchShape& shape = in_.shapes[patch];
         const float cosine = dot(shape.normal, normal);
         if (cosine < cos_angle_) return false;
         if (shape.triangles == 1 || !shape.outline.empty()) {
-            const vec3 d = position - nearest_point(position, local, shape);
+            const vec3 d = position - nearest_point(position, vector(local), shape);
             distance2 = dot(d, d);
         }
-        const float height = outside.z - 0.01f * largest_;
+        const float height = outside[2] - 0.01f * largest_;
         const float sine2 = std::max(0.0f, 1 - cosine * cosine) * 1.2f + 1e-4f;
         return distance2 <= radius2 && (height <= 0 || height * height <= sine2 * distance2);
     }
@@ -125,23 +175,61 @@ class MapFinder {
     }
 
     const ReferenceInput& in_;
+    std::vector<PatchBoxes> boxes_;
     float largest_, cos_angle_;
 };
 
-/// The references of all photons, in at most `most_tasks` pieces.
-std::vector<Task> find_maps(const ReferenceInput& input) {
-    const MapFinder finder(input);
-    const size_t photons = input.photons.size(), size = std::max<size_t>(8192, photons / most_tasks + 1);
+/// All photons in at most `most_tasks` pieces, with a count for each patch.
+std::vector<Task> split(const ReferenceInput& input) {
+    const size_t photons = input.photons.size(), size = std::max(smallest_task, photons / most_tasks + 1);
     std::vector<Task> tasks;
     for (size_t begin = 0; begin < photons; begin += size)
-        tasks.push_back({begin, std::min(begin + size, photons), {}, {}});
-    Progress progress("references", photons);
+        tasks.push_back({begin, std::min(begin + size, photons), std::vector<uint>(input.patches.count, 0)});
+    return tasks;
+}
+
+/// Turns the counts of the tasks into the places where each writes first, patch after patch, those of a patch from
+/// begin(patch) on; end(patch, place) learns where they end.
+template <class Begin, class End>
+void place_counts(std::vector<Task>& tasks, size_t patches, const Begin& begin, const End& end) {
+    for (size_t p = 0; p < patches; ++p) {
+        uint64_t next = begin(p);
+        for (Task& task : tasks) next += std::exchange(task.counts[p], uint(next));
+        end(p, next);
+    }
+}
+
+/// The photons in the order of their own patches: those of patch p are photons[starts[p]] .. photons[starts[p + 1] - 1].
+References sort_by_patch(const ReferenceInput& input, const MapFinder& finder) {
+    References sorted{{0}, std::vector<uint>(input.photons.size())};
+    std::vector<uint> own(input.photons.size());
+    std::vector<Task> tasks = split(input);
+    parallel_for(tasks.size(), [&](size_t t) {
+        for (size_t i = tasks[t].begin; i < tasks[t].end; ++i) ++tasks[t].counts[own[i] = finder.own_patch(uint(i))];
+    });
+    place_counts(
+        tasks, input.patches.count, [&](size_t p) { return sorted.starts[p]; },
+        [&](size_t, uint64_t place) { sorted.starts.push_back(place); });
+    parallel_for(tasks.size(), [&](size_t t) {
+        for (size_t i = tasks[t].begin; i < tasks[t].end; ++i) sorted.photons[tasks[t].counts[own[i]]++] = uint(i);
+    });
+    return sorted;
+}
+
+/// What other patches refer to, in pieces; photons that move out of their own patch are struck from `sorted`.
+std::vector<Task> find_foreign(const ReferenceInput& input, const MapFinder& finder, References& sorted) {
+    constexpr size_t ahead = 16;  // photons on their way from memory
+    std::vector<Task> tasks = split(input);
+    Progress progress("references", input.photons.size());
     parallel_for(tasks.size(), [&](size_t t) {
         Task& task = tasks[t];
-        task.maps.reserve((task.end - task.begin) * 2);
-        for (size_t i = task.begin; i < task.end; ++i) finder.find(input.photons[i], task.maps);
-        task.counts.assign(input.patches.count, 0);
-        for (uint map : task.maps) ++task.counts[map & ~first_of_photon];
+        size_t own = size_t(std::upper_bound(sorted.starts.begin(), sorted.starts.end(), task.begin) - sorted.starts.begin()) - 1;
+        for (size_t i = task.begin; i < task.end; ++i) {
+            while (i >= sorted.starts[own + 1]) ++own;
+            if (i + ahead < task.end) prefetch(input.photons[sorted.photons[i + ahead]]);
+            if (!finder.find(sorted.photons[i], uint(own), task.foreign)) sorted.photons[i] = moved_out;
+        }
+        for (const Foreign& reference : task.foreign) ++task.counts[reference.patch];
         progress.step(task.end - task.begin);
     });
     return tasks;
@@ -164,35 +252,37 @@ double sample_references(const ReferenceInput& input, size_t samples) {
     const MapFinder finder(input);
     const std::vector<Photon>& photons = input.photons;
     const size_t step = std::max<size_t>(1, photons.size() / samples), count = photons.size() / step;
-    std::vector<uint> found;
-    for (size_t i = 0; i < count; ++i) finder.find(photons[i * step], found);
-    return count ? double(found.size()) / double(count) : 0;
+    std::vector<Foreign> found;
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i) kept += finder.find(uint(i * step), finder.own_patch(uint(i * step)), found);
+    return count ? double(kept + found.size()) / double(count) : 0;
 }
 
 References find_references(const ReferenceInput& input) {
-    std::vector<Task> tasks = find_maps(input);
-    References result;
-    result.starts.assign(1, 0);
-    for (size_t m = 0; m < input.patches.count; ++m) {
-        uint64_t next = result.starts[m];
-        for (Task& task : tasks) {
-            const uint count = task.counts[m];
-            task.counts[m] = uint(next);  // where the task writes its next reference
-            next += count;
-        }
-        result.starts.push_back(next);
-    }
+    const MapFinder finder(input);
+    References sorted = sort_by_patch(input, finder);
+    std::vector<Task> tasks = find_foreign(input, finder, sorted);
+    References result{{0}, {}};
+    std::vector<uint64_t> foreign_starts(input.patches.count);
+    const auto is_kept = [](uint photon) { return photon != moved_out; };
+    const auto own_end = [&](size_t p) {
+        const auto first = sorted.photons.begin() + int64_t(sorted.starts[p]),
+                   last = sorted.photons.begin() + int64_t(sorted.starts[p + 1]);
+        return foreign_starts[p] = result.starts[p] + uint64_t(std::count_if(first, last, is_kept));
+    };
+    place_counts(tasks, input.patches.count, own_end, [&](size_t, uint64_t place) { result.starts.push_back(place); });
     if (result.starts.back() > 0xfffffff0ull)
         throw Error("photon map: more than 2^32 references; use fewer photons or a smaller radius");
     result.photons.resize(result.starts.back());
+    parallel_for(input.patches.count, [&](size_t p) {
+        std::copy_if(sorted.photons.begin() + int64_t(sorted.starts[p]),
+                     sorted.photons.begin() + int64_t(sorted.starts[p + 1]),
+                     result.photons.begin() + int64_t(result.starts[p]), is_kept);
+    });
     parallel_for(tasks.size(), [&](size_t t) {
-        Task& task = tasks[t];
-        size_t photon = task.begin - 1;
-        for (uint map : task.maps) {
-            photon += map / first_of_photon;
-            result.photons[task.counts[map & ~first_of_photon]++] = uint(photon);
-        }
-        task = {};
+        for (const Foreign& reference : tasks[t].foreign)
+            result.photons[tasks[t].counts[reference.patch]++] = reference.photon;
+        tasks[t] = {};
     });
     return result;
 }

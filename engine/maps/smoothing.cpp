@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/wide_vectors.h"
+#include "maps/weighing.h"
+
 namespace lw {
 namespace {
 
@@ -12,20 +15,22 @@ constexpr float darkest = 1e-30f;   // keeps quotients numbers
 
 /// exp(-x) as (1 - x / 16)^16: a Gaussian that ends, without a call of the library.
 float ending_exponential(float x) {
-    const float t = std::max(1 - x / 16, 0.0f), t2 = t * t, t4 = t2 * t2, t8 = t4 * t4;
+    const float t = positive(1 - x / 16), t2 = t * t, t4 = t2 * t2, t8 = t4 * t4;
     return t8 * t8;
 }
 
 /// The weights of the nodes `dx` to the right of a row's in another row, times `weight`.
-void weigh(const float* own, const float* other, const float* exists, float weight, std::vector<float>& weights) {
+LW_WIDE_VECTORS void weigh(const float* own, const float* other, const float* exists, float weight,
+                           std::vector<float>& weights) {
     float* w = weights.data();
-    for (size_t x = 0; x < weights.size(); ++x) {
+    const size_t count = weights.size();
+    for (size_t x = 0; x < count; ++x) {
         const float change = (own[x] - other[x]) / (0.5f * noise * (own[x] + other[x]) + darkest);
         w[x] = weight * exists[x] * ending_exponential(0.5f * change * change);
     }
 }
 
-void add_weighted(const float* values, const std::vector<float>& weights, float* sums) {
+LW_WIDE_VECTORS void add_weighted(const float* values, const std::vector<float>& weights, float* sums) {
     for (size_t x = 0; x < weights.size(); ++x) sums[x] += values[x] * weights[x];
 }
 

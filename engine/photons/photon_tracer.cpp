@@ -10,14 +10,9 @@ namespace {
 
 constexpr int longest_path = 1000;  // ends paths between surfaces that absorb nothing; 0.99^1000 is 4e-5
 constexpr int depth_of_roulette = 64;
+constexpr size_t flights_at_once = 8;  // while one waits for a triangle, others move
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
-
-/// True when the material is a Lambert reflector of one colour: most surfaces of most rooms.
-bool is_plain_lambert(const Material& m) {
-    return m.metallic <= 0 && m.specular <= 0 && m.transmission <= 0 && m.base_color_texture.texture < 0 &&
-           m.normal_texture.texture < 0 && !(m.flags & material_unlit);
-}
 
 /// The class of a path of class `path` that goes on by `next`. Shadow rays pass where light goes straight on.
 uint path_after(uint path, const Scatter& next) {
@@ -36,13 +31,15 @@ struct PhotonTracer::Flight {
     vec3 medium{0};  // absorption, 1/m
     uint light = 0, path = path_direct;
     int depth = 0;
+    Rng rng{0, 0, 0};
+    Hit next{};  // what it meets
 };
 
 /// What it meets. Of a matte surface only position, normals and base colour are known.
 struct PhotonTracer::Bounce {
     Surface surface;
     uint triangle;
-    bool matte, back, shows_light;
+    bool matte, flat, back, shows_light;
 };
 
 PhotonTracer::PhotonTracer(const Scene& scene, const RayCaster& caster, const ShootSettings& settings)
@@ -51,9 +48,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayCaster& caster, const Sh
       surfaces_(scene),
       emitters_(scene),
       aims_(scene.lights.size()),
-      settings_(settings) {
-    for (const Material& m : scene.materials) is_matte_.push_back(scene.colors.empty() && is_plain_lambert(m));
-}
+      facets_(facets_of(scene)),
+      settings_(settings) {}
 
 std::array<float, 5> PhotonTracer::numbers(uint light, uint64_t index) const {
     const auto scramble = uint32_t(mix64(settings_.seed * 0x10001 + light));
@@ -63,31 +59,75 @@ std::array<float, 5> PhotonTracer::numbers(uint light, uint64_t index) const {
 }
 
 void PhotonTracer::trace(Chunk& chunk, double emitted, size_t most) const {
-    uint64_t index = chunk.first;
-    for (; index < chunk.last && chunk.photons.size() < most; ++index) trace_path(chunk, index, float(1.0 / emitted));
-    chunk.last = index;
+    std::array<Flight, flights_at_once> flights;
+    size_t count = 0;
+    const auto step_all = [&](const auto& step) {  // the last takes the place of one that ends
+        for (size_t i = 0; i < count;)
+            if (step(flights[i]))
+                ++i;
+            else
+                flights[i] = flights[--count];
+    };
+    uint64_t next = chunk.first;
+    while (true) {
+        while (count < flights.size() && next < chunk.last && chunk.photons.size() < most)
+            flights[count++] = start(chunk, next++, float(1.0 / emitted));
+        if (count == 0) break;
+        step_all([&](Flight& flight) { return look(chunk, flight); });
+        step_all([&](Flight& flight) { return bounce(chunk, flight); });
+    }
+    chunk.last = next;
 }
 
-void PhotonTracer::trace_path(Chunk& chunk, uint64_t index, float share) const {
-    Rng rng(settings_.seed, chunk.light + 1, index);
+/// A photon that leaves its lamp.
+PhotonTracer::Flight PhotonTracer::start(Chunk& chunk, uint64_t index, float share) const {
     std::array<float, 5> u = numbers(chunk.light, index);
     share *= aims_[chunk.light].warp(u);
     const Emission photon = emitters_.emit(chunk.light, u);
     Flight flight{caster_.offset(photon.origin, photon.normal), photon.direction, photon.flux * share};
     flight.light = chunk.light;
+    flight.rng = Rng(settings_.seed, chunk.light + 1, index);
     chunk.emitted_flux += balance_of(flight.flux);
-    follow(chunk, flight, rng);
+    return flight;
 }
 
-/// To the end of the path.
-void PhotonTracer::follow(Chunk& chunk, Flight flight, Rng& rng) const {
-    for (; flight.depth < longest_path; ++flight.depth) {
-        Bounce at;
-        if (!meet(chunk, flight, at, rng)) return;
-        keep(chunk, flight, at);
-        if (!leave(chunk, flight, at, rng)) return;
+/// Finds what the photon meets; false when nothing. Blends that are passed are lit.
+bool PhotonTracer::look(Chunk& chunk, Flight& flight) const {
+    std::vector<Hit> passed;
+    const std::optional<Hit> hit = caster_.nearest(flight.origin, flight.direction, flight.rng, &passed);
+    for (const Hit& blend : passed) {
+        Flight there = flight;
+        there.flux = flight.flux * surfaces_.passed_by_medium(flight.medium, blend.distance);
+        keep(chunk, there, bounce_at(blend, flight.direction));
     }
+    if (!hit) {
+        chunk.escaped += balance_of(flight.flux);
+        return false;
+    }
+    flight.next = *hit;
+    __builtin_prefetch(&facets_[hit->triangle]);
+    return true;
+}
+
+/// Leaves a photon and sends the rest on; false when the path ends here.
+bool PhotonTracer::bounce(Chunk& chunk, Flight& flight) const {
+    const Bounce at = bounce_at(flight.next, flight.direction);
+    pass_medium(chunk, flight, at);
+    keep(chunk, flight, at);
+    if (!leave(chunk, flight, at)) return false;
+    if (++flight.depth < longest_path) return true;
     chunk.absorbed += balance_of(flight.flux);
+    return false;
+}
+
+/// The medium on the way takes its part.
+void PhotonTracer::pass_medium(Chunk& chunk, Flight& flight, const Bounce& at) const {
+    const vec3 absorption =
+        at.matte ? flight.medium : absorption_before(surfaces_, at.surface, flight.direction, flight.medium);
+    if (absorption == vec3(0)) return;
+    const vec3 arriving = flight.flux * surfaces_.passed_by_medium(absorption, flight.next.distance);
+    chunk.absorbed += balance_of(flight.flux) - balance_of(arriving);
+    flight.flux = arriving;
 }
 
 /// Leaves a photon where surfaces show light.
@@ -99,36 +139,13 @@ void PhotonTracer::keep(Chunk& chunk, const Flight& flight, const Bounce& at) co
                              pack_origin(flight.light, flight.path, at.back)});
 }
 
-/// The next surface; false when there is none. The medium on the way takes its part; blends that are passed are lit.
-bool PhotonTracer::meet(Chunk& chunk, Flight& flight, Bounce& at, Rng& rng) const {
-    std::vector<Hit> passed;
-    const std::optional<Hit> hit = caster_.nearest(flight.origin, flight.direction, rng, &passed);
-    for (const Hit& blend : passed) {
-        Flight there = flight;
-        there.flux = flight.flux * surfaces_.passed_by_medium(flight.medium, blend.distance);
-        keep(chunk, there, bounce_at(blend, flight.direction));
-    }
-    if (!hit) {
-        chunk.escaped += balance_of(flight.flux);
-        return false;
-    }
-    at = bounce_at(*hit, flight.direction);
-    const vec3 absorption =
-        at.matte ? flight.medium : absorption_before(surfaces_, at.surface, flight.direction, flight.medium);
-    if (absorption != vec3(0)) {
-        const vec3 arriving = flight.flux * surfaces_.passed_by_medium(absorption, hit->distance);
-        chunk.absorbed += balance_of(flight.flux) - balance_of(arriving);
-        flight.flux = arriving;
-    }
-    return true;
-}
-
 PhotonTracer::Bounce PhotonTracer::bounce_at(const Hit& hit, vec3 direction) const {
+    const Facet& facet = facets_[hit.triangle];
     Bounce at;
     at.triangle = hit.triangle;
-    at.matte = is_matte_[scene_.objects[scene_.triangle_objects[hit.triangle]].material];
+    at.matte = facet.is_matte, at.flat = facet.is_flat;
     if (at.matte)
-        read_matte(hit, at.surface);
+        read_matte(hit, facet, at.surface);
     else
         at.surface = surfaces_.surface_at(hit.triangle, hit.barycentrics);
     at.back = dot(at.surface.geometric_normal, direction) > 0;
@@ -137,28 +154,26 @@ PhotonTracer::Bounce PhotonTracer::bounce_at(const Hit& hit, vec3 direction) con
 }
 
 /// surface_at() for what a matte bounce needs.
-void PhotonTracer::read_matte(const Hit& hit, Surface& s) const {
-    const uvec3 c = scene_.triangles[hit.triangle];
-    const vec3 p0 = scene_.positions[c.x], p1 = scene_.positions[c.y], p2 = scene_.positions[c.z];
+void PhotonTracer::read_matte(const Hit& hit, const Facet& facet, Surface& s) const {
     const float b1 = hit.barycentrics.x, b2 = hit.barycentrics.y, b0 = 1 - b1 - b2;
-    s.position = b0 * p0 + b1 * p1 + b2 * p2;
-    const vec3 product = cross(p1 - p0, p2 - p0);
-    const float size = length(product);
-    s.geometric_normal = size > 0 ? product / size : vec3(0, 1, 0);
+    s.position = b0 * facet.corners[0] + b1 * facet.corners[1] + b2 * facet.corners[2];
+    s.normal = s.geometric_normal = facet.normal;
+    s.base_color = facet.base_color;
+    if (facet.is_flat) return;
+    const uvec3 c = scene_.triangles[hit.triangle];
     const vec3 n = b0 * scene_.normals[c.x] + b1 * scene_.normals[c.y] + b2 * scene_.normals[c.z];
     const float n_length = length(n);
-    s.normal = n_length > 1e-6f ? n / n_length : s.geometric_normal;
+    if (n_length > 1e-6f) s.normal = n / n_length;
     if (dot(s.normal, s.geometric_normal) < 0) s.normal = -s.normal;
-    s.base_color = scene_.material_of(hit.triangle).base_color;
 }
 
 /// Sends the photon on from a surface, by roulette; false when it ends there.
-bool PhotonTracer::leave(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const {
-    if (at.matte) return leave_matte(chunk, flight, at, rng);
-    const std::optional<Scatter> next = sample_bsdf(surfaces_, at.surface, -flight.direction, Carries::flux, rng);
+bool PhotonTracer::leave(Chunk& chunk, Flight& flight, const Bounce& at) const {
+    if (at.matte) return leave_matte(chunk, flight, at);
+    const std::optional<Scatter> next = sample_bsdf(surfaces_, at.surface, -flight.direction, Carries::flux, flight.rng);
     // Ends what is caught in clear glass.
     const float longest_survival = flight.depth < depth_of_roulette || (next && !next->specular) ? 1.0f : 0.95f;
-    if (!survives(chunk, flight, next ? next->weight : vec3(0), longest_survival, rng)) return false;
+    if (!survives(chunk, flight, next ? next->weight : vec3(0), longest_survival)) return false;
     flight.path = path_after(flight.path, *next);
     flight.direction = next->direction;
     flight.medium = absorption_after(surfaces_, at.surface, flight.direction, flight.medium);
@@ -168,11 +183,11 @@ bool PhotonTracer::leave(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rn
 }
 
 /// Roulette: the flux that goes on is `weight` times the arriving one on average. What ends is absorbed.
-bool PhotonTracer::survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival, Rng& rng) {
+bool PhotonTracer::survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival) {
     const vec3 reflected = flight.flux * weight;
     const float before = largest(flight.flux), after = largest(reflected);
     const float survival = before > 0 ? std::min(longest_survival, after / before) : 0.0f;
-    const bool goes_on = rng.next() < survival;
+    const bool goes_on = flight.rng.next() < survival;
     const vec3 kept = goes_on ? reflected * (1 / survival) : vec3(0);
     chunk.absorbed += balance_of(flight.flux) - balance_of(kept);
     flight.flux = kept;
@@ -180,19 +195,19 @@ bool PhotonTracer::survives(Chunk& chunk, Flight& flight, vec3 weight, float lon
 }
 
 /// leave() a Lambert reflector of one colour: what sample_bsdf() does there, without asking for other lobes.
-bool PhotonTracer::leave_matte(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const {
+bool PhotonTracer::leave_matte(Chunk& chunk, Flight& flight, const Bounce& at) const {
     const float side = at.back ? -1.0f : 1.0f;
     const vec3 ng = at.surface.geometric_normal * side, bent = at.surface.normal * side;
     const bool seen = -dot(bent, flight.direction) > 1e-4f;
     const vec3 n(seen ? bent.x : ng.x, seen ? bent.y : ng.y, seen ? bent.z : ng.z);
-    const float u = rng.next(), v = rng.next();
+    const float u = flight.rng.next(), v = flight.rng.next();
     const vec3 local = sample_cosine(u, v), direction = frame_around(n) * local;
     const float out = dot(ng, direction);
     // Flux at bent normals (Veach 1997, equation 5.18); none leaves through the surface.
     const float shading = std::max(-dot(n, flight.direction), 1e-4f) * out;
     const float geometric = -dot(ng, flight.direction) * local.z;
-    const float adjoint = !(out > 0) ? 0.0f : geometric > 1e-6f ? shading / geometric : 1.0f;
-    if (!survives(chunk, flight, at.surface.base_color * adjoint, 1, rng)) return false;
+    const float adjoint = !(out > 0) ? 0.0f : geometric > 1e-6f && !at.flat ? shading / geometric : 1.0f;
+    if (!survives(chunk, flight, at.surface.base_color * adjoint, 1)) return false;
     flight.path = path_indirect;
     flight.direction = direction;
     flight.origin = caster_.offset(at.surface.position, ng);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "photons/aim.h"
+#include "photons/facets.h"
 #include "photons/photon.h"
 #include "photons/shoot.h"
 #include "trace/bsdf.h"
@@ -34,28 +35,30 @@ class PhotonTracer {
     /// The five emission numbers of a path, before aiming: Owen-scrambled Sobol.
     std::array<float, 5> numbers(uint light, uint64_t index) const;
 
-    /// Traces the paths of a chunk; each carries 1 / emitted of the lamp's flux. Ends early with `most` photons.
+    /// Traces the paths of a chunk, a few side by side; each carries 1 / emitted of the lamp's flux. With `most` photons no more
+    /// paths are started; chunk.last becomes the first that was not.
     void trace(Chunk& chunk, double emitted, size_t most = std::numeric_limits<size_t>::max()) const;
 
   private:
     struct Flight;
     struct Bounce;
-    void trace_path(Chunk& chunk, uint64_t index, float share) const;
-    void follow(Chunk& chunk, Flight flight, Rng& rng) const;
-    bool meet(Chunk& chunk, Flight& flight, Bounce& at, Rng& rng) const;
+    Flight start(Chunk& chunk, uint64_t index, float share) const;
+    bool look(Chunk& chunk, Flight& flight) const;
+    bool bounce(Chunk& chunk, Flight& flight) const;
+    void pass_medium(Chunk& chunk, Flight& flight, const Bounce& at) const;
     void keep(Chunk& chunk, const Flight& flight, const Bounce& at) const;
     Bounce bounce_at(const Hit& hit, vec3 direction) const;
-    bool leave(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const;
-    bool leave_matte(Chunk& chunk, Flight& flight, const Bounce& at, Rng& rng) const;
-    static bool survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival, Rng& rng);
-    void read_matte(const Hit& hit, Surface& s) const;
+    bool leave(Chunk& chunk, Flight& flight, const Bounce& at) const;
+    bool leave_matte(Chunk& chunk, Flight& flight, const Bounce& at) const;
+    static bool survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival);
+    void read_matte(const Hit& hit, const Facet& facet, Surface& s) const;
 
     const Scene& scene_;
     const RayCaster& caster_;
     SurfaceReader surfaces_;
     Emitters emitters_;
     std::vector<Aim> aims_;
-    std::vector<char> is_matte_;  // per material
+    std::vector<Facet> facets_;
     ShootSettings settings_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -90,6 +92,21 @@ void add_to(LightBalance& balance, const Chunk& chunk) {
     balance.escaped += chunk.escaped;
 }
 
+/// Appends the photons of some tasks in the order of their triangles: what is done with them later meets those of a
+/// surface one after the other in memory. Many triangles share a bucket.
+void append_by_triangle(std::span<const Chunk> chunks, size_t triangles, std::vector<Photon>& records) {
+    constexpr size_t most_buckets = 65536;
+    const size_t per_bucket = triangles / most_buckets + 1;
+    std::vector<size_t> next(triangles / per_bucket + 2, 0);
+    for (const Chunk& chunk : chunks)
+        for (const Photon& photon : chunk.photons) ++next[photon.triangle / per_bucket + 1];
+    next[0] = records.size();
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    records.resize(next.back());
+    for (const Chunk& chunk : chunks)
+        for (const Photon& photon : chunk.photons) records[next[photon.triangle / per_bucket]++] = photon;
+}
+
 }  // namespace
 
 Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSettings& settings) {
@@ -112,10 +129,10 @@ Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSe
             tracer.trace(chunk, double(emitted[chunk.light]));
             progress.step(chunk.photons.size());
         });
+        append_by_triangle({&chunks[first], count}, scene.triangles.size(), photons.records);
         for (size_t i = 0; i < count; ++i) {
             Chunk& chunk = chunks[first + i];
             add_to(photons.lights[chunk.light], chunk);
-            photons.records.insert(photons.records.end(), chunk.photons.begin(), chunk.photons.end());
             chunk.photons.clear();
             chunk.photons.swap(buffers[i]);
         }

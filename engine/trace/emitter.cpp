@@ -69,7 +69,7 @@ Emitters::Emitters(const Scene& scene) : scene_(scene), surfaces_(scene) {
 
 vec3 Emitters::even_radiance_of(const Light& light) const {
     constexpr vec3 uneven(-1);
-    if (light.type != light_mesh || light.emitter_count > most_even_triangles) return uneven;
+    if (light.type != light_mesh) return uneven;
     const Material& first = scene_.material_of(scene_.emitters[light.first_emitter].triangle);
     for (uint i = 0; i < light.emitter_count; ++i) {
         const Material& m = scene_.material_of(scene_.emitters[light.first_emitter + i].triangle);
@@ -77,6 +77,10 @@ vec3 Emitters::even_radiance_of(const Light& light) const {
         if (&m != &first || m.emissive_texture.texture >= 0 || holes) return uneven;
     }
     return per_intensity(first.emissive, light.intensity);
+}
+
+bool Emitters::is_even(uint index) const {
+    return shines_alike(index) && scene_.lights[index].emitter_count <= most_even_triangles;
 }
 
 vec3 Emitters::even_irradiance(uint index, vec3 point, vec3 normal) const {
@@ -135,15 +139,34 @@ float Emitters::area_of(const Light& light) const {
     return scene_.emitters[light.first_emitter + light.emitter_count - 1].area_below;
 }
 
-Surface Emitters::point_of(const Light& light, float u, float v) const {
+Surface Emitters::point_of(uint index, float u, float v) const {
+    const Light& light = scene_.lights[index];
     const auto first = scene_.emitters.begin() + light.first_emitter, last = first + light.emitter_count;
     const float wanted = u * area_of(light);
     const auto below = [](float area, const Emitter& e) { return area < e.area_below; };
     const auto chosen = std::min(std::upper_bound(first, last, wanted, below), last - 1);
     const float start = chosen == first ? 0.0f : (chosen - 1)->area_below;
     const float within = clamp((wanted - start) / std::max(chosen->area_below - start, 1e-30f), 0.0f, 0.99999994f);
-    Surface s = surfaces_.surface_at(chosen->triangle, sample_triangle(within, v));
+    const vec2 place = sample_triangle(within, v);
+    if (shines_alike(index)) return even_point(chosen->triangle, place);
+    Surface s = surfaces_.surface_at(chosen->triangle, place);
     s.emissive *= surfaces_.opacity_at(chosen->triangle, s);  // holes do not glow
+    return s;
+}
+
+/// surface_at() for what a lamp that shines alike all over needs: its place and what it emits.
+Surface Emitters::even_point(uint triangle, vec2 barycentrics) const {
+    const uvec3 c = scene_.triangles[triangle];
+    const vec3 p0 = scene_.positions[c.x], p1 = scene_.positions[c.y], p2 = scene_.positions[c.z];
+    const Material& material = scene_.material_of(triangle);
+    const vec3 product = cross(p1 - p0, p2 - p0);
+    const float size = length(product);
+    Surface s{};
+    s.position = (1 - barycentrics.x - barycentrics.y) * p0 + barycentrics.x * p1 + barycentrics.y * p2;
+    s.geometric_normal = s.normal = size > 0 ? product / size : vec3(0, 1, 0);
+    s.emissive = material.emissive;
+    s.flags = material.flags;
+    s.light = scene_.objects[scene_.triangle_objects[triangle]].light;
     return s;
 }
 
@@ -176,7 +199,7 @@ Emission Emitters::emit(uint index, const std::array<float, 5>& u) const {
         const mat3 frame = frame_around(light.direction);
         return {centre_ + frame * vec3(disc.x, disc.y, -radius_), vec3(0), light.direction, flux};
     }
-    const Surface s = point_of(light, u[0], u[1]);
+    const Surface s = point_of(index, u[0], u[1]);
     const bool back = (s.flags & material_double_sided) && u[4] >= 0.5f;
     const float sides = s.flags & material_double_sided ? 2.0f : 1.0f;
     const vec3 n = back ? -s.geometric_normal : s.geometric_normal;
@@ -199,7 +222,7 @@ std::optional<Incident> Emitters::arrive(uint index, vec3 point, float u, float 
         if (falloff <= 0) return std::nullopt;
         return Incident{to_light, light.position, vec3(falloff / d2), 0};
     }
-    const Surface s = point_of(light, u, v);
+    const Surface s = point_of(index, u, v);
     const vec3 path = s.position - point;
     const float distance = length(path);
     if (!(distance > 0)) return std::nullopt;

@@ -48,7 +48,7 @@ class Emitters {
     float arrive_pdf(const Surface& s, float distance, vec3 to_light) const;
 
     /// True for a mesh of few triangles that shines alike all over: its light has a closed form.
-    bool is_even(uint light) const { return even_radiance_[light].x >= 0; }
+    bool is_even(uint light) const;
     /// Irradiance at `point` on a plane facing unit `normal` from all of a lamp that is_even(), unoccluded, per unit
     /// intensity: the vector irradiance of its triangles above the plane (Lambert 1760; Arvo 1995, equation 3.5).
     vec3 even_irradiance(uint light, vec3 point, vec3 normal) const;
@@ -66,11 +66,13 @@ class Emitters {
     SurfaceReader surfaces_;
     std::vector<Beam> beams_;  // per lamp, empty but for profile lights
     /// The point at (u, v) of a mesh lamp, uniform by area.
-    Surface point_of(const Light& light, float u, float v) const;
+    Surface point_of(uint light, float u, float v) const;
+    Surface even_point(uint triangle, vec2 barycentrics) const;
     float area_of(const Light& light) const;  // one side, m2
 
     vec3 even_radiance_of(const Light& light) const;
-    std::vector<vec3> even_radiance_;  // per lamp, per unit intensity; negative where is_even() is not true
+    std::vector<vec3> even_radiance_;  // per lamp, per unit intensity; negative where it does not shine alike all over
+    bool shines_alike(uint light) const { return even_radiance_[light].x >= 0; }
 
     vec3 centre_;
     float radius_;  // of the sphere around the scene

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include "base/error.h"
 
@@ -18,11 +20,17 @@ constexpr int most_layers = 256;  // of holes and glass along a ray
 
 RTCScene as_scene(void* handle) { return static_cast<RTCScene>(handle); }
 
+/// Origin, start, direction and time are written as Embree reads them, 16 bytes at a time: of single floats just written it
+/// would have to wait for the memory.
 RTCRay make_ray(vec3 origin, vec3 direction, float far) {
-    RTCRay ray{};
-    ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
-    ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
-    ray.tnear = 0, ray.tfar = far, ray.mask = 0xffffffffu;
+    using Floats = float __attribute__((vector_size(16)));
+    const Floats from{origin.x, origin.y, origin.z, 0}, along{direction.x, direction.y, direction.z, 0};
+    RTCRay ray;
+    static_assert(offsetof(RTCRay, org_x) == 0 && offsetof(RTCRay, tnear) == 12 && offsetof(RTCRay, dir_x) == 16 &&
+                  offsetof(RTCRay, time) == 28);
+    std::memcpy(&ray.org_x, &from, sizeof from);
+    std::memcpy(&ray.dir_x, &along, sizeof along);
+    ray.tfar = far, ray.mask = 0xffffffffu, ray.id = 0, ray.flags = 0;
     return ray;
 }
 
@@ -110,9 +118,9 @@ RayCaster::~RayCaster() {
 }
 
 std::optional<Hit> RayCaster::nearest_triangle(vec3 origin, vec3 direction, float max_distance) const {
-    RTCRayHit query{};
+    RTCRayHit query;
     query.ray = make_ray(origin, direction, max_distance);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersect(as_scene(embree_scene_), query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Hit{query.hit.primID, {query.hit.u, query.hit.v}, query.ray.tfar};

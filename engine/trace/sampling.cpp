@@ -29,7 +29,15 @@ constexpr DirectionNumbers make_direction_numbers() {
     return v;
 }
 
-/// The sum (XOR) of the direction numbers of each value of each group of 4 bits of an index, per dimension.
+constexpr uint32_t reverse_bits(uint32_t x) {
+    x = ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
+    x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
+    x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
+    return __builtin_bswap32(x);
+}
+
+/// The sum (XOR) of the direction numbers of each value of each group of 4 bits of an index, per dimension; their bits are
+/// reversed, as the scrambling wants them.
 using NibbleSums = std::array<std::array<std::array<uint32_t, 16>, 8>, 5>;
 
 constexpr NibbleSums sum_direction_numbers() {
@@ -39,18 +47,11 @@ constexpr NibbleSums sum_direction_numbers() {
         for (size_t nibble = 0; nibble < 8; ++nibble)
             for (size_t value = 0; value < 16; ++value)
                 for (size_t bit = 0; bit < 4; ++bit)
-                    if (value >> bit & 1u) sums[d][nibble][value] ^= v[d][4 * nibble + bit];
+                    if (value >> bit & 1u) sums[d][nibble][value] ^= reverse_bits(v[d][4 * nibble + bit]);
     return sums;
 }
 
 constexpr NibbleSums nibble_sums = sum_direction_numbers();
-
-uint32_t reverse_bits(uint32_t x) {
-    x = ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
-    x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
-    x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
-    return __builtin_bswap32(x);
-}
 
 /// Laine & Karras (2011) permutation with the constants of Vegdahl; scrambles from the low bits up.
 uint32_t laine_karras(uint32_t x, uint32_t seed) {
@@ -62,8 +63,6 @@ uint32_t laine_karras(uint32_t x, uint32_t seed) {
     return x;
 }
 
-uint32_t owen_scramble(uint32_t x, uint32_t seed) { return reverse_bits(laine_karras(reverse_bits(x), seed)); }
-
 }  // namespace
 
 float sobol_owen(uint32_t index, int dimension, uint32_t seed) {
@@ -73,7 +72,7 @@ float sobol_owen(uint32_t index, int dimension, uint32_t seed) {
         index >>= 4;
     }
     const auto scramble = uint32_t(mix64((uint64_t(seed) << 8) | uint64_t(dimension)));
-    return to_unit_float(owen_scramble(x, scramble));
+    return to_unit_float(reverse_bits(laine_karras(x, scramble)));
 }
 
 }  // namespace lw
