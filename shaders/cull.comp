@@ -42,8 +42,9 @@ vec2 area_with(vec2 p, vec2 q, vec2 reach) {
     return p.x * q.y - p.y * q.x + vec2(-slack, slack);
 }
 
-/// Corners in pixels, in front of the near plane. False when one side has all pixel centres of the triangle's box beyond it.
-/// Across a border of the picture a triangle is clipped, which moves its corners: it stays.
+/// Corners in pixels, in front of the near plane. False when there is no pixel centre in the triangle's box, or one side has
+/// all of them beyond it. A triangle across a border of the picture stays: it is clipped, and its corners may be far away,
+/// where rounding exceeds the margin.
 bool may_cover_centre(vec2 p, vec2 q, vec2 r) {
     vec2 size = vec2(frame.width, frame.height), low = min(p, min(q, r)), high = max(p, max(q, r));
     if (any(lessThan(high, vec2(0.0f))) || any(greaterThan(low, size))) return false;

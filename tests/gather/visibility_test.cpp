@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/random.h"
 #include "gather/renderer.h"
 #include "gpu/commands.h"
 #include "rooms.h"
@@ -96,6 +97,37 @@ Scene first_of(Scene scene, size_t count) {
     return scene;
 }
 
+/// Each triangle twice, one after the other.
+Scene doubled(Scene scene) {
+    const Scene once = scene;
+    scene.triangles.clear();
+    scene.triangle_objects.clear();
+    for (size_t t = 0; t < once.triangles.size(); ++t)
+        for (int copy = 0; copy < 2; ++copy) {
+            scene.triangles.push_back(once.triangles[t]);
+            scene.triangle_objects.push_back(once.triangle_objects[t]);
+        }
+    return scene;
+}
+
+/// Thin triangles along the rows of pixels of a camera at 0, from close by on the left to far away on the right.
+Scene wires(uint count) {
+    Scene scene = first_of(room(0), 0);
+    Rng rng(1, 0, 0);
+    const auto number = [&](float low, float high) { return low + (high - low) * rng.next(); };
+    for (uint i = 0; i < count; ++i) {
+        const float row = number(-0.4f, 0.4f), close = number(0.06f, 0.3f), far = number(10, 1000);
+        const auto first = uint(scene.positions.size());
+        scene.positions.insert(scene.positions.end(), {{number(-3, -0.1f), row * close, -close},
+                                                       {far, row * far, -far},
+                                                       {far, (row + number(0, 0.005f)) * far, -far}});
+        scene.normals.insert(scene.normals.end(), 3, vec3(0, 0, 1));
+        scene.triangles.emplace_back(first, first + 1, first + 2);
+        scene.triangle_objects.push_back(0);
+    }
+    return scene;
+}
+
 }  // namespace
 
 TEST(Visibility, IsTheSameWithoutTheTrianglesThatCoverNoPixel) {
@@ -151,17 +183,17 @@ TEST(Visibility, IsTheSameWithAnyNumberOfTriangles) {
     }
 }
 
+TEST(Visibility, IsTheSameWhereLongTrianglesLeaveThePicture) {
+    const Stage stage(wires(4000));
+    const Views views(stage, {120, 90});
+    expect_same(views, look(vec3(0), {0, 0, -1}, "wires"), 8);
+}
+
 TEST(Visibility, OfTwoTrianglesInOnePlaceIsTheFirst) {
-    Scene doubled = room(20'000);
-    const auto once = uint(doubled.triangles.size());
-    for (uint t = 0; t < once; ++t) {
-        doubled.triangles.push_back(doubled.triangles[t]);
-        doubled.triangle_objects.push_back(doubled.triangle_objects[t]);
-    }
-    const Stage stage(std::move(doubled));
+    const Stage stage(doubled(room(20'000)));
     const Views views(stage, {160, 120});
     expect_same(views, stage.scene.cameras[0]);
-    for (const VisibleSample& s : views.culled.read_samples()) EXPECT_LT(s.triangle, once);
+    for (const VisibleSample& s : views.culled.read_samples()) EXPECT_EQ(s.triangle % 2, 0u);
 }
 
 TEST(Visibility, OfAFrameDoesNotDependOnTheFramesBefore) {
