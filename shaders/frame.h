@@ -85,7 +85,9 @@ LW_CONST uint constant_first_cut = 29u;  // first of the cuts among the grids, n
 LW_CONST uint constant_first_caustic_map = 30u;  // grids from here on are of caustics
 LW_CONST uint constant_first_caustic_cut = 31u;
 LW_CONST uint constant_first_see_through = 32u;  // with ray queries: first of the triangles that may let light through, or no_map
-LW_CONST uint constant_count = 33u;
+LW_CONST uint constant_first_listed = 33u;  // where the triangles of a draw begin in the list (cull.h)
+LW_CONST uint constant_pixel_margin = 34u;  // bits of a float: pixels by which a triangle may reach beyond its box
+LW_CONST uint constant_count = 35u;
 
 /// The dispatches of the gather: photons at all pixels, then rays at those that need any; where view paths go on, a dispatch
 /// that follows them, and photons and rays at their ends.

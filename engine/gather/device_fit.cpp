@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "shaders/frame.h"
+#include "shaders/cull.h"
 
 namespace lw {
 
@@ -14,6 +14,12 @@ std::string mebibytes(uint64_t bytes) {
 
 namespace {
 
+/// Bytes of the list of triangles to draw, and of what it is made with.
+uint64_t list_bytes(const Scene& scene) {
+    const uint64_t clusters = (scene.triangles.size() + cluster_triangles - 1) / cluster_triangles;
+    return clusters * (sizeof(Cluster) + blocks_per_cluster * sizeof(Survivors) + cluster_triangles * sizeof(uint));
+}
+
 /// Bytes that the scene and the map take on the device: corners of triangles, textures, the map with the light of its
 /// cells.
 uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
@@ -21,8 +27,8 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
     // An acceleration structure and what building it takes; on Mesa's software rasterizer 70 bytes stay.
     const uint64_t rays_per_triangle = queries_rays ? 200 : 0;
     const uint64_t corner = 32 + (s.uv1.empty() ? 0 : 8) + (s.colors.empty() ? 0 : 16) + (s.tangents.empty() ? 0 : 16);
-    return s.triangles.size() * (3 * corner + sizeof(uvec4) + rays_per_triangle) + bytes(s.texels) + m.bytes() +
-           m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
+    return s.triangles.size() * (3 * corner + sizeof(uvec4) + rays_per_triangle) + bytes(s.texels) + list_bytes(s) +
+           m.bytes() + m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
 }
 
 /// Photons of a map that fits beside `others` bytes, one significant digit: a map grows with its photons.

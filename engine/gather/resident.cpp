@@ -54,22 +54,6 @@ float narrowest_roughness(const Scene& scene) {
     return least;
 }
 
-std::vector<Resident::Cluster> find_clusters(const Scene& scene) {
-    const size_t count = (scene.triangles.size() + cluster_triangles - 1) / cluster_triangles;
-    std::vector<Resident::Cluster> clusters(count, {vec3(1e30f), vec3(-1e30f)});
-    for (size_t t = 0; t < scene.triangles.size(); ++t) {
-        Resident::Cluster& cluster = clusters[t / cluster_triangles];
-        const Material& material = scene.material_of(uint(t));
-        cluster.see_through |=
-            (material.flags & (material_alpha_mask | material_alpha_blend)) != 0 || material.transmission > 0;
-        for (int c = 0; c < 3; ++c) {
-            const vec3 p = scene.positions[scene.triangles[t][c]];
-            cluster.low = min(cluster.low, p), cluster.high = max(cluster.high, p);
-        }
-    }
-    return clusters;
-}
-
 }  // namespace
 
 Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& map, const Bvh& bvh,
@@ -79,7 +63,6 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
       map_(&map),
       most_texels_(settings.texels ? settings.texels : device.limits().maxTexelBufferElements),
       triangle_count_(uint(scene.triangles.size())),
-      clusters_(find_clusters(scene)),
       max_radius_(map.settings.radius),
       inverse_flux_scale_(1.0f / map.flux_scale),
       ray_epsilon_(scene.ray_epsilon()),

@@ -49,12 +49,6 @@ class Resident {
     /// True when rays are traced by the device's ray queries.
     bool queries_rays() const { return queries_rays_; }
     uint triangle_count() const { return triangle_count_; }
-    /// Each cluster_triangles triangles, in their order.
-    struct Cluster {
-        vec3 low, high;            // bounds
-        bool see_through = false;  // some of them are cut out, blended or transmissive
-    };
-    const std::vector<Cluster>& clusters() const { return clusters_; }
     float max_radius() const { return max_radius_; }    // m
     float ray_epsilon() const { return ray_epsilon_; }  // m
     float scene_size() const { return scene_size_; }    // m
@@ -92,7 +86,6 @@ class Resident {
     uint64_t most_texels_;
     ShaderConstants constants_{};
     uint triangle_count_;
-    std::vector<Cluster> clusters_;
     float max_radius_;
     float inverse_flux_scale_;
     float ray_epsilon_;

@@ -13,46 +13,21 @@ using Layout = vk::ImageLayout;
 constexpr auto both_stages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 constexpr auto depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
-/// True when the whole box is outside one plane of the view: behind the near plane, or beyond a side.
-bool is_outside(const Resident::Cluster& box, const Frame& frame) {
-    const vec3 centre = 0.5f * (box.low + box.high) - frame.camera_position, half = 0.5f * (box.high - box.low);
-    const auto beyond = [&](vec3 normal, float offset) {
-        return dot(normal, centre) + dot(abs(normal), half) < offset;
-    };
-    const vec3 ahead = -frame.camera_back;
-    const vec2 slope = (vec2(1) + abs(frame.jitter)) / frame.projection;
-    return beyond(ahead, frame.near) || beyond(ahead * slope.x - frame.camera_right, 0) ||
-           beyond(ahead * slope.x + frame.camera_right, 0) || beyond(ahead * slope.y - frame.camera_up, 0) ||
-           beyond(ahead * slope.y + frame.camera_up, 0);
-}
-
-/// Runs [first, end) of clusters of one kind that may be in view.
-std::vector<std::pair<uint, uint>> visible_clusters(const std::vector<Resident::Cluster>& clusters, bool see_through,
-                                                    const Frame& frame) {
-    std::vector<std::pair<uint, uint>> runs;
-    for (uint c = 0; c < clusters.size(); ++c) {
-        if (clusters[c].see_through != see_through || is_outside(clusters[c], frame)) continue;
-        if (!runs.empty() && runs.back().second == c)
-            runs.back().second = c + 1;
-        else
-            runs.emplace_back(c, c + 1);
-    }
-    return runs;
-}
-
 }  // namespace
 
-VisibilityPass::VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size)
+VisibilityPass::VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size, size_t culled_from)
     : device_(&device),
       resident_(&resident),
+      cull_(device, resident, culled_from),
       visible_(device, size, vk::Format::eR32G32B32A32Uint,
                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled |
                    vk::ImageUsageFlagBits::eTransferSrc),
       depth_(device, size, vk::Format::eD32Sfloat, vk::ImageUsageFlagBits::eDepthStencilAttachment) {
-    const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout()};
+    const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), cull_.descriptors().layout()};
     layout_ = make_layout(device, sets, both_stages, sizeof(Frame));
     for (const bool see_through : {false, true}) {
         ShaderConstants constants = resident.constants();
+        constants[constant_first_listed] = cull_.first_listed(see_through);
         if (!see_through) constants[constant_has_alpha] = constants[constant_has_transmission] = 0;
         pipelines_[see_through] = make_raster_pipeline(device, *layout_, {visibility_vert, visibility_frag}, constants,
                                                        visible_.format(), depth_.format());
@@ -60,6 +35,7 @@ VisibilityPass::VisibilityPass(const Device& device, const Resident& resident, v
 }
 
 void VisibilityPass::record(vk::CommandBuffer commands, const Frame& frame) const {
+    cull_.record(commands, frame);
     visible_.change_layout(commands, Layout::eUndefined, Layout::eColorAttachmentOptimal,
                            Stage::eComputeShader | Stage::eTransfer, Stage::eColorAttachmentOutput);
     depth_.change_layout(commands, Layout::eUndefined, Layout::eDepthAttachmentOptimal, depth_tests, depth_tests);
@@ -79,12 +55,12 @@ void VisibilityPass::draw(vk::CommandBuffer commands, const Frame& frame) const 
     commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, size}, 1, 0, color, &depth));
     commands.setViewport(0, vk::Viewport(0, 0, float(size.width), float(size.height), 0, 1));
     commands.setScissor(0, vk::Rect2D({0, 0}, size));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, resident_->descriptors().handle(), {});
+    const vk::DescriptorSet sets[] = {resident_->descriptors().handle(), cull_.descriptors().handle()};
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, sets, {});
     commands.pushConstants<Frame>(*layout_, both_stages, 0, frame);
     for (const bool see_through : {false, true}) {
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_[see_through]);
-        for (const auto& [first, end] : visible_clusters(resident_->clusters(), see_through, frame))
-            commands.draw(3 * cluster_triangles, end - first, 0, first);
+        cull_.draw(commands, see_through);
     }
     commands.endRendering();
 }

@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "gather/resident.h"
+#include "gather/cull_pass.h"
 #include "gpu/target.h"
 
 namespace lw {
@@ -17,7 +17,8 @@ static_assert(sizeof(VisibleSample) == 16);
 
 class VisibilityPass {
   public:
-    VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size);
+    /// `culled_from`: triangles of a scene from which on those without a pixel are left out.
+    VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size, size_t culled_from = least_culled);
     /// Draws frame.width x frame.height pixels from the top left corner, at most the pass's size. Afterwards texture()
     /// is readable by compute shaders.
     void record(vk::CommandBuffer commands, const Frame& frame) const;
@@ -30,6 +31,7 @@ class VisibilityPass {
 
     const Device* device_;
     const Resident* resident_;
+    CullPass cull_;
     Target visible_;
     Target depth_;
     vk::UniquePipelineLayout layout_;

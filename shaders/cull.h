@@ -1,0 +1,49 @@
+// Which triangles are rasterised: an own descriptor set of the passes that cull them and of visibility.vert.
+// Stream compaction as in Harris, Sengupta, Owens: Parallel Prefix Sum (Scan) with CUDA (GPU Gems 3, chapter 39).
+#ifndef LW_CULL_H
+#define LW_CULL_H
+#include "frame.h"
+#ifdef __cplusplus
+namespace lw {
+#endif
+
+LW_CONST uint binding_clusters = 0u;   // RGBA32UI texels, cluster_texels for each Cluster
+LW_CONST uint binding_survivors = 1u;  // Survivors, blocks_per_cluster for each Cluster
+LW_CONST uint binding_draws = 2u;      // DrawArguments of opaque triangles, and of those in see-through clusters
+LW_CONST uint binding_listed = 3u;     // triangles to draw: opaque ones first, the others from constant_first_listed on
+LW_CONST uint binding_listed_texels = 4u;  // the same as R32UI texels
+
+/// Neighbours in the scene's order. Those of opaque clusters come first in the array.
+struct Cluster {
+    vec3 low;  // bounds
+    uint first;
+    vec3 high;
+    uint end;  // triangles [first, end)
+};
+LW_CONST uint cluster_texels = 2u;
+
+/// Triangles that one invocation looks at.
+LW_CONST uint block_triangles = 32u;
+LW_CONST uint blocks_per_cluster = cluster_triangles / block_triangles;
+LW_CONST uint cull_group = 64u;  // invocations
+
+/// Of a block: a bit for each triangle that may cover a pixel's centre, and where the first of them goes in the list.
+struct Survivors {
+    uint mask;
+    uint first_listed;
+};
+
+/// VkDrawIndirectCommand: an instance for every cluster_triangles triangles of the list.
+struct DrawArguments {
+    uint vertices;
+    uint instances;
+    uint first_vertex;
+    uint first_instance;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(Cluster) == 16 * cluster_texels && offsetof(Cluster, end) == 28);
+static_assert(sizeof(Survivors) == 8 && sizeof(DrawArguments) == 16);
+}  // namespace lw
+#endif
+#endif
