@@ -75,6 +75,19 @@ Room far_in_vertices() {
     return room;
 }
 
+/// Made smaller or larger in its vertices, under a node that undoes it or under none.
+Room scaled_in_vertices(double scale, bool undone_by_node) {
+    Room room = plain_room();
+    for (Soup* soup : {&room.walls, &room.block, &room.panel})
+        *soup = moved(*soup, [=](glm::dvec3 p) { return p * scale; });
+    room.lamp *= scale, room.eye *= scale;
+    if (undone_by_node)
+        room.node = glm::scale(glm::dmat4(1), glm::dvec3(1 / scale));
+    else
+        room.candela *= scale * scale;
+    return room;
+}
+
 /// Each quad of two triangles as strips whose sides are 1 : 10,000.
 Soup needles(const Soup& soup) {
     Soup strips;
@@ -107,6 +120,8 @@ const Disguise disguises[] = {
          room.candela *= 250.0 * 250.0;
          return room;
      }},
+    {"a_millimetre_wide_in_its_vertices", [] { return scaled_in_vertices(0.25e-3, false); }},
+    {"a_kilometre_wide_in_its_vertices", [] { return scaled_in_vertices(250, false); }},
     {"turned", [] { return with_node(glm::rotate(glm::dmat4(1), 0.7, glm::dvec3(1, 2, 3) / std::sqrt(14.0))); }},
     {"mirrored", [] { return with_node(glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1))); }},
     {"a_million_triangles", [] { return with_soup([](const Soup& s) { return divided(s, 204); }); }},
@@ -145,6 +160,7 @@ const Disguise disguises[] = {
          return with_soup(
              [](const Soup& s) { return moved(s, [](glm::dvec3 p) { return glm::max(p, glm::dvec3(1e-41)); }); });
      }},
+    {"of_denormal_coordinates_alone", [] { return scaled_in_vertices(1e-39, true); }},
     {"inside_out", [] { return with_soup(flipped); }},
     {"mixed_winding",
      [] {
@@ -219,6 +235,12 @@ TEST(RobustnessOfNodes, AShearedNodeIsTheShearOfItsVertices) {
     tell_case("sheared and mirrored by its node", "flux of its vertices sheared, +-1 %", "%+.2f %%",
               100 * (sums[0] / sums[1] - 1));
     EXPECT_NEAR(sums[0] / sums[1], 1, 0.01);
+    for (uint mode : modes) {  // by_node's rays, in the room that both are
+        const Difference d = difference(read(a, by_node, mode), read(b, by_node, mode));
+        EXPECT_GT(d.compared, 550u) << mode_names[mode];
+        EXPECT_NEAR(d.mean_ratio, 1, 0.01) << mode_names[mode];
+        EXPECT_LE(d.rmse, 2 * expected(mode).noise) << mode_names[mode];
+    }
     EXPECT_NEAR(double(length(a.scene.lights[0].position - b.scene.lights[0].position)), 0, 1e-4);
     for (size_t v = 0; v < a.scene.positions.size(); ++v)
         ASSERT_NEAR(double(std::abs(dot(a.scene.normals[v], a.scene.normals[v]))), 1, 1e-4);
