@@ -25,11 +25,14 @@ std::string refusal_of(const std::string& path) {
 
 TEST(ReplacedFile, HasNoNameUntilItIsWholeSoThatNoKillLeavesAPart) {
     const TempFolder folder;
+    const int nameless = open(folder.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
+    if (nameless < 0) GTEST_SKIP() << "this file system has no files without names";
+    close(nameless);
     write_text(folder / "map", "yesterday");
     {
         ReplacedFile file(folder / "map");
         file.stream() << "today" << std::flush;
-        if (folder.names() != Words{"map"}) GTEST_SKIP() << "this file system has no files without names";
+        EXPECT_EQ(folder.names(), Words{"map"});
         EXPECT_EQ(read_text(folder / "map"), "yesterday");
         file.commit();
     }
