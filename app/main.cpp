@@ -1,10 +1,11 @@
 // lumenwalk: walk through a baked building, dim its lamps, measure and compare.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 
 #include "app/play.h"
 #include "app/walkthrough.h"
-#include "base/interrupt.h"
+#include "base/program.h"
 #include "file/map_file.h"
 
 namespace {
@@ -104,17 +105,12 @@ int main(int argc, char** argv) {
             throw CLI::ValidationError("--size: must be WxH in pixels, from 16x16 to 16384x16384");
         if (app.count("--device-memory") > 0 && !(options.device_memory_gb >= 0.001 && options.device_memory_gb <= 1e6))
             throw CLI::ValidationError("--device-memory: give a number from 0.001 to 1e6");
+        if (options.play.exposure_ev && !(std::abs(*options.play.exposure_ev) <= 100))
+            throw CLI::ValidationError("--exposure: give a number from -100 to 100");
         if (options.play.path.empty() && !(options.play.frames.empty() && options.play.timings.empty()))
             throw CLI::ValidationError("--frames and --timings: only with --play");
     } catch (const CLI::ParseError& wrong) {
         return app.exit(wrong) == 0 ? 0 : 2;
     }
-    try {
-        lw::watch_for_interrupt();
-        run(options);
-    } catch (const std::exception& failure) {
-        std::fprintf(stderr, "lumenwalk: %s\n", failure.what());
-        return 1;
-    }
-    return 0;
+    return lw::run_program("lumenwalk", [&] { run(options); });
 }

@@ -1,6 +1,7 @@
 #include "app/metering.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/replaced_file.h"
@@ -29,6 +30,12 @@ std::optional<Hit> hit_at(const Session& s, vec2 pixel, vec2 size) {
     const Camera camera = camera_of(s.walker, s.yfov, s.near);
     return seen_from(s.world.scene, s.world.caster, camera.position,
                      camera_direction(camera, pixel.x, pixel.y, int(size.x), int(size.y)));
+}
+
+void check_is_light(const Measurement& m, size_t pin) {
+    for (float lux : {m.lux, m.half_width_lux, m.luminance})
+        if (!std::isfinite(lux) || lux < 0)
+            throw Error("pin " + std::to_string(pin) + " reads " + std::to_string(lux) + ", which is no light");
 }
 
 void write_table(const std::filesystem::path& path, const std::string& text) {
@@ -64,6 +71,7 @@ void save_pins(Session& s) {
         out << "\n";
         for (size_t i = 0; i < s.metering.pins.size(); ++i) {
             const Measurement& m = s.metering.pins[i].value;
+            check_is_light(m, i + 1);
             const glm::dvec3 at = scene.origin + glm::dvec3(m.position);
             const uint material = scene.objects[scene.triangle_objects[m.triangle]].material;
             out << i + 1 << "," << at.x << "," << at.y << "," << at.z << "," << m.lux << ","

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "base/replaced_file.h"
 #include "file/map_file.h"
+#include "image/light_check.h"
 #include "image/png.h"
 #include "scene/profile.h"
 
@@ -147,8 +148,9 @@ void play(const PlaySettings& settings) {
         adapt_to(viewing, stage.glance(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));
         frames.push_back(make(i));
         if (settings.divisor == 0) divisor = automatic.next(0, frames.back().first, false);
-        if (!settings.frames.empty())
-            write_png(frame_name(settings.frames, i), read_screen(device, stage, settings.size));
+        if (settings.frames.empty()) continue;
+        check_is_light(stage.read_values());
+        write_png(frame_name(settings.frames, i), read_screen(device, stage, settings.size));
     }
     if (!settings.timings.empty()) write_timings(settings.timings, frames);
     print_rate(frames, settings);

@@ -9,6 +9,7 @@
 #include "app/panels.h"
 #include "base/error.h"
 #include "image/exr.h"
+#include "image/light_check.h"
 #include "image/png.h"
 #include "trace/emitter.h"
 
@@ -160,8 +161,10 @@ void Show::keep_screenshot() {
             return tell(session_, "picture copied to the clipboard");
         }
         const std::filesystem::path png = free_name(session_, "png"), exr = free_name(session_, "exr");
+        const std::optional<Image> light = stage_ ? std::optional(stage_->read_values()) : std::nullopt;
+        if (light) check_is_light(*light);
         write_png(png, presenter_.shown());
-        if (stage_) write_exr(exr, stage_->read_values());
+        if (light) write_exr(exr, *light);
         tell(session_, "saved " + png.string() + (stage_ ? " and " + exr.filename().string() : ""));
     } catch (const Error& failure) {
         tell(session_, failure.what());

@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/program.h"
 #include "base/replaced_file.h"
 #include "file/map_file.h"
 #include "maps/bake_memory.h"
@@ -160,12 +160,5 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) ? 2 : 0;
     }
-    try {
-        lw::watch_for_interrupt();
-        bake(options);
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "lumenwalk-bake: %s\n", e.what());
-        return 1;
-    }
-    return 0;
+    return lw::run_program("lumenwalk-bake", [&] { bake(options); });
 }

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "base/error.h"
-#include "base/interrupt.h"
+#include "base/program.h"
 #include "base/replaced_file.h"
 #include "image/compare.h"
 #include "image/exr.h"
@@ -76,13 +76,8 @@ int main(int argc, char** argv) {
     add_options(app, options);
     try {
         app.parse(argc, argv);
-        lw::watch_for_interrupt();
-        run(options);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : 2;
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "lumenwalk-compare: %s\n", e.what());
-        return 1;
     }
-    return 0;
+    return lw::run_program("lumenwalk-compare", [&] { run(options); });
 }

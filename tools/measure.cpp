@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/program.h"
 #include "base/progress.h"
 #include "base/replaced_file.h"
 #include "file/map_file.h"
@@ -17,6 +17,7 @@
 #include "measure/report.h"
 #include "measure/survey.h"
 #include "measure/table.h"
+#include "number_option.h"
 #include "photons/shoot.h"
 #include "scene/camera.h"
 #include "scene/profile.h"
@@ -85,22 +86,36 @@ void write_text(const std::string& path, const std::string& text) {
     lw::ReplacedFile file(path);
     file.stream() << text;
     file.commit();
-    std::printf("wrote %s\n", path.c_str());
 }
 
-/// Says how many photons were read, and writes a bake that was made if it shall be kept.
-void keep_map(const Options& o, const lw::Survey& survey) {
+/// Before anything is printed, which whoever reads it may end (| head).
+void write_files(const Options& o, const lw::Survey& survey, const lw::Scene& scene, const lw::RayCaster& caster) {
+    if (!o.saved_map.empty()) lw::save_photon_map(o.saved_map, survey.map);
+    write_text(o.csv, lw::sensors_as_csv(survey, scene));
+    write_text(o.fields_csv, lw::fields_as_csv(survey));
+    if (!o.report.empty()) write_text(o.report, lw::report_as_html(survey, scene, caster, o.cameras));
+}
+
+/// Says how many photons were read, and what became of a bake that was made.
+void tell_photons(const Options& o, const lw::Survey& survey) {
     const bool baked = survey.bakes > 0 || o.photons > 0;
     std::printf("%.4g million photons%s\n", 1e-6 * double(survey.map.stored_photons),
                 survey.bakes > 0 ? ", baked for the error asked for"
                 : baked          ? ", baked in memory"
                                  : "");
-    if (!o.saved_map.empty()) {
-        lw::save_photon_map(o.saved_map, survey.map);
-        std::printf("wrote %s\n", o.saved_map.c_str());
-    } else if (survey.bakes > 0) {
-        std::printf("this bake is not kept; --save-map FILE writes it\n");
-    }
+    if (o.saved_map.empty() && survey.bakes > 0) std::printf("this bake is not kept; --save-map FILE writes it\n");
+}
+
+void print_fields(const Options& o, const lw::Survey& survey) {
+    for (const std::string& text : o.photometry)
+        std::printf("%s: %s\n", text.c_str(),
+                    lw::summary_of(lw::read_photometry(text.substr(text.find('=') + 1))).c_str());
+    std::printf("%s", lw::fields_as_text(survey).c_str());
+    std::printf("+- half the 90 %% interval; maintenance factor %g\n", double(survey.maintenance));
+    if (o.reference_paths > 0) std::printf("%s", lw::agreement_as_text(survey).c_str());
+    tell_photons(o, survey);
+    for (const std::string& path : {o.saved_map, o.csv, o.fields_csv, o.report})
+        if (!path.empty()) std::printf("wrote %s\n", path.c_str());
 }
 
 /// The cameras in which reflections are looked for: one of the scene, or those along a recorded walk.
@@ -167,16 +182,8 @@ void measure(Options& o) {
     lw::add_pins(scene, caster, survey);
     if (o.reference_paths > 0) lw::trace_survey(scene, caster, o.reference_paths, o.survey.meter.seed, survey);
     for (const std::string& warning : survey.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-    for (const std::string& text : o.photometry)
-        std::printf("%s: %s\n", text.c_str(),
-                    lw::summary_of(lw::read_photometry(text.substr(text.find('=') + 1))).c_str());
-    std::printf("%s", lw::fields_as_text(survey).c_str());
-    std::printf("+- half the 90 %% interval; maintenance factor %g\n", double(survey.maintenance));
-    if (o.reference_paths > 0) std::printf("%s", lw::agreement_as_text(survey).c_str());
-    keep_map(o, survey);
-    write_text(o.csv, lw::sensors_as_csv(survey, scene));
-    write_text(o.fields_csv, lw::fields_as_csv(survey));
-    if (!o.report.empty()) write_text(o.report, lw::report_as_html(survey, scene, caster, o.cameras));
+    write_files(o, survey, scene, caster);
+    print_fields(o, survey);
 }
 
 std::string list_of_tasks() {
@@ -215,7 +222,7 @@ void add_subject(CLI::App& app, Options& o) {
         ->allow_extra_args(false);
     app.add_option("--maintenance", o.survey.maintenance, "maintenance factor: part of the light that is left")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 1.0));
+        ->check(lw::finite_number(0.01, 1));
 }
 
 /// How exactly.
@@ -224,7 +231,7 @@ void add_effort(CLI::App& app, Options& o) {
            "--error", o.error_percent,
            "percent: traces rays and bakes until half the 90 % interval of every sensor over 1 lx is below; starts "
            "from MAP if there is one")
-        ->check(CLI::Range(0.2, 100.0));
+        ->check(lw::finite_number(0.2, 100));
     app.add_option("--photons", o.photons, "bake this many photons in memory instead of reading MAP")
         ->check(CLI::Range(uint64_t(1000), uint64_t(2'000'000'000)));
     app.add_option("--most-photons", o.survey.most_photons, "largest bake of --error")
@@ -254,17 +261,17 @@ void add_reflections(CLI::App& app, Options& o) {
         "needs no map");
     app.add_option("--reflections-step", o.reflections_step, "seconds between the views along a recorded walk")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 3600.0));
+        ->check(lw::finite_number(0.01, 3600));
     app.add_option("--reflections-csv", o.reflections_csv, "file of one row per reflection");
     app.add_option("--least-luminance", o.limits.luminance, "cd/m2 of the mirrored lamp, below which none is reported")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(lw::finite_number(0, 1e9));
     app.add_option("--least-ratio", o.limits.ratio, "luminance of the reflection over that of its surroundings")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(lw::finite_number(0, 1e9));
     app.add_option("--least-solid-angle", o.limits.solid_angle, "sr of a reflection")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 12.6));
+        ->check(lw::finite_number(0, 12.6));
 }
 
 void add_options(CLI::App& app, Options& o) {
@@ -297,12 +304,5 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) ? 2 : 0;
     }
-    try {
-        lw::watch_for_interrupt();
-        measure(options);
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "lumenwalk-measure: %s\n", e.what());
-        return 1;
-    }
-    return 0;
+    return lw::run_program("lumenwalk-measure", [&] { measure(options); });
 }

@@ -4,8 +4,9 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/interrupt.h"
+#include "base/memory.h"
 #include "base/parallel.h"
+#include "base/program.h"
 #include "base/replaced_file.h"
 #include "image/exr.h"
 #include "image/light_check.h"
@@ -49,6 +50,7 @@ void render(Options& options) {
     const lw::Scene scene = lw::load_scene(options.scene, options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     lw::check_can_create(options.output, {options.scene});
+    lw::check_reference_fits(options.settings, lw::available_memory());
     const lw::RayCaster caster(scene);
     const std::vector<lw::vec3> weights =
         lw::light_weights(scene, lw::chosen_factors(scene, options.ambiance, options.powers));
@@ -95,7 +97,7 @@ int main(int argc, char** argv) {
     app.add_option("--caustic-radius", options.settings.caustic_radius,
                    "metres over which the first sample blurs such light, later ones less (0: 0.4 % of the scene)")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1e6));
+        ->check(lw::finite_number(0, 1e6));
     app.add_option("--ambiance", options.ambiance,
                    "powers of this name in SCENE.ambiances.json; --power multiplies them");
     app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
@@ -114,12 +116,5 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) ? 2 : 0;
     }
-    try {
-        lw::watch_for_interrupt();
-        render(options);
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "lumenwalk-reference: %s\n", e.what());
-        return 1;
-    }
-    return 0;
+    return lw::run_program("lumenwalk-reference", [&] { render(options); });
 }

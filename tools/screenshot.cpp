@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "base/error.h"
-#include "base/interrupt.h"
+#include "base/program.h"
 #include "base/replaced_file.h"
 #include "file/map_file.h"
 #include "gather/renderer.h"
@@ -62,7 +62,7 @@ void add_options(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--followed-roughness", o.followed_roughness,
                    "rays follow what surfaces smoother than this reflect; photons show it of the others")
-        ->check(CLI::Range(0.0f, 1.0f))
+        ->check(lw::finite_number(0, 1))
         ->capture_default_str();
     app.add_option("--exposure", o.exposure, "EV100; default: from the picture")->check(lw::finite_number(-100, 100));
     app.add_option("--samples", o.samples, "views averaged per pixel")
@@ -181,12 +181,6 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& wrong) {
         return app.exit(wrong) == 0 ? 0 : 2;
     }
-    try {
-        lw::watch_for_interrupt();
-        options.lists() ? print_lists(options) : take_screenshot(options);
-    } catch (const std::exception& failure) {
-        std::cerr << "lumenwalk-screenshot: " << failure.what() << "\n";
-        return 1;
-    }
-    return 0;
+    return lw::run_program("lumenwalk-screenshot",
+                           [&] { options.lists() ? print_lists(options) : take_screenshot(options); });
 }

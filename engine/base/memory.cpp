@@ -1,11 +1,16 @@
 #include "base/memory.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
+
+#include "base/error.h"
 
 namespace lw {
 namespace {
@@ -43,20 +48,29 @@ uint64_t available_in_groups() {
     }
 }
 
-}  // namespace
-
-uint64_t available_memory() { return std::min(available_in_system(), available_in_groups()); }
-
-uint64_t resident_memory() {
+/// Kibibytes behind a name in the status of this process, in bytes; 0 when it is not there.
+uint64_t bytes_of_process(const std::string& wanted) {
     std::ifstream stream("/proc/self/status");
     std::string name, unit;
     while (stream >> name) {
         uint64_t kibibytes = 0;
-        if (name == "VmRSS:" && stream >> kibibytes) return kibibytes * 1024;
+        if (name == wanted && stream >> kibibytes) return kibibytes * 1024;
         std::getline(stream, unit);
     }
     return 0;
 }
+
+uint64_t available_addresses() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unknown;
+    return limit.rlim_cur - std::min<uint64_t>(limit.rlim_cur, bytes_of_process("VmSize:"));
+}
+
+}  // namespace
+
+uint64_t available_memory() { return std::min({available_in_system(), available_in_groups(), available_addresses()}); }
+
+uint64_t resident_memory() { return bytes_of_process("VmRSS:"); }
 
 std::string bytes_text(uint64_t bytes) {
     char text[32];
@@ -65,6 +79,18 @@ std::string bytes_text(uint64_t bytes) {
     else
         std::snprintf(text, sizeof text, "%.0f MB", double(bytes) / 1e6);
     return text;
+}
+
+void check_picture_fits(uint64_t width, uint64_t height, uint64_t bytes_per_pixel, uint64_t available) {
+    const uint64_t bytes = width * height * bytes_per_pixel;
+    if (bytes <= available) return;
+    const double share = std::sqrt(double(available) / double(bytes));
+    const auto size = [](double w, double h) {
+        return std::to_string(uint64_t(w)) + "x" + std::to_string(uint64_t(h));
+    };
+    throw Error("a picture of " + size(double(width), double(height)) + " takes about " + bytes_text(bytes) +
+                " of memory, there are " + bytes_text(available) + "; " +
+                size(share * double(width), share * double(height)) + " would fit");
 }
 
 }  // namespace lw

@@ -1,4 +1,5 @@
-// A file that appears whole or not at all: written beside its place under a name of this process, then renamed.
+// A file that appears whole or not at all: written beside its place without a name, so that nothing stays behind when
+// the process is killed; where the file system has no such files, under a name of this process. Then renamed.
 #pragma once
 #include <filesystem>
 #include <fstream>
@@ -8,10 +9,11 @@ namespace lw {
 
 /// An open stream to a file beside `path`; commit() moves it into place, otherwise the destructor removes it, or
 /// Ctrl-C does (base/interrupt.h). Two writers of one path do not meet: the last to commit wins.
-/// Throws Error naming the file when it cannot be created, written to the end, or renamed.
+/// Throws Error naming the file when it is something else than a file (a folder, a device, a pipe), and when it cannot
+/// be created, written to the end, or renamed.
 class ReplacedFile {
   public:
-    explicit ReplacedFile(const std::filesystem::path& path);
+    explicit ReplacedFile(const std::filesystem::path& path, bool nameless = true);
     ReplacedFile(const ReplacedFile&) = delete;
     ReplacedFile& operator=(const ReplacedFile&) = delete;
     ~ReplacedFile();
@@ -21,9 +23,13 @@ class ReplacedFile {
     void commit();
 
   private:
+    bool open_nameless();
+    void open_partial();
+
     std::filesystem::path path_;
     std::filesystem::path partial_;
     std::ofstream stream_;
+    int nameless_ = -1;  // what stream_ writes to as well, when it has no name
     bool committed_ = false;
 };
 

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/replaced_file.h"
 #include "file/checksum.h"
 
@@ -252,6 +253,11 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
     if (header.scene_hash != scene.content_hash)
         throw Error(path.string() + ": the scene " + scene.path.filename().string() +
                     " has changed since this map was baked, or the map is of another scene; bake it again");
+
+    constexpr uint64_t always_there = uint64_t(256) << 20;  // not worth asking
+    if (file_size > always_there && file_size > available_memory())
+        throw Error(path.string() + ": the map takes " + bytes_text(file_size) + " of memory, there are " +
+                    bytes_text(available_memory()));
 
     PhotonMap map;
     map.scene_hash = header.scene_hash;

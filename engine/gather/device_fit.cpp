@@ -3,7 +3,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "shaders/cull.h"
+#include "shaders/followed.h"
+#include "shaders/frame.h"
 
 namespace lw {
 
@@ -57,6 +60,20 @@ void check_device(const Device& device, const Scene& scene, const PhotonMap& map
         device.name() + ": scene and photons take " + mebibytes(bytes) + ", " + mebibytes(budget) +
         " may be used (--device-memory)" +
         (most ? "; a map of " + std::to_string(most) + " photons would fit" : "; the scene alone does not fit"));
+}
+
+vk::Extent2D fit_pictures(const Device& device, const Resident& resident, vk::Extent2D size, uint pictures) {
+    constexpr uint64_t seen = sizeof(uvec4) + sizeof(float);  // what pixels see, and its depth
+    constexpr uint64_t read_back = 100;                       // per pixel: nine channels, and what they are made of
+    const uint lists = pixel_lists(uint(resident.scene().lights.size()), resident.may_follow());
+    const uint64_t light = sizeof(vec4) + lists * sizeof(uint) + 4 + (resident.may_follow() ? sizeof(Followed) : 0);
+    try {
+        check_picture_fits(size.width, size.height, seen + pictures * light, device.memory_budget(resident.bytes()));
+    } catch (const Error& failure) {
+        throw Error(device.name() + " (--device-memory): " + failure.what());
+    }
+    check_picture_fits(size.width, size.height, read_back, available_memory());
+    return size;
 }
 
 }  // namespace lw

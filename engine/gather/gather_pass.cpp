@@ -34,7 +34,8 @@ ShaderConstants constants_for(const Resident& resident, const GatherSettings& se
     ShaderConstants constants = resident.constants();
     constants[constant_gather_mode] = settings.mode;
     constants[constant_heap_size] = settings.mode == 0 ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
-    constants[constant_has_shadow_rays] = settings.shadow_rays > 0;
+    // Without a lattice, as of a map without photons, only rays know what stands before a lamp.
+    constants[constant_has_shadow_rays] = settings.shadow_rays > 0 || !constants[constant_has_visible_lamps];
     constants[constant_followed_roughness] = floatBitsToUint(followed_roughness(settings));
     constants[constant_has_followed] =
         settings.mode != gather_mode_inspect &&

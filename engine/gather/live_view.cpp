@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "gather/device_fit.h"
 #include "gather/renderer.h"
 
 namespace lw {
@@ -11,7 +12,7 @@ using Stage = vk::PipelineStageFlagBits2;
 LiveView::LiveView(const Device& device, const Resident& resident, vk::Extent2D size)
     : device_(&device),
       resident_(&resident),
-      size_(size),
+      size_(fit_pictures(device, resident, size, 2)),
       visibility_(device, resident, size),
       a_(device, visibility_.texture(), resident),
       b_(device, visibility_.texture(), resident),

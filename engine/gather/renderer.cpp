@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gather/device_fit.h"
 #include "gpu/commands.h"
 #include "image/tonemap.h"
 #include "scene/surface.h"
@@ -63,7 +64,7 @@ Renderer::Renderer(const Device& device, const Resident& resident, uint width, u
       resident_(&resident),
       width_(width),
       height_(height),
-      visibility_(device, resident, {width, height}),
+      visibility_(device, resident, fit_pictures(device, resident, {width, height}, 1)),
       picture_(device, visibility_.texture(), resident),
       tonemap_(device, resident, picture_) {}
 

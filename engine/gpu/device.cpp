@@ -238,8 +238,9 @@ vk::DeviceSize Device::memory_size() const {
     return largest;
 }
 
-vk::DeviceSize Device::memory_budget() const {
-    vk::DeviceSize left = memory_size();
+vk::DeviceSize Device::memory_budget(vk::DeviceSize held) const {
+    const auto without_held = [&](vk::DeviceSize bytes) { return bytes - std::min(bytes, held); };
+    vk::DeviceSize left = without_held(memory_size());
     if (has_extension(physical_, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME)) {
         const auto chain = physical_.getMemoryProperties2<vk::PhysicalDeviceMemoryProperties2,
                                                           vk::PhysicalDeviceMemoryBudgetPropertiesEXT>();
@@ -251,7 +252,7 @@ vk::DeviceSize Device::memory_budget() const {
             if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
                 left = std::max(left, told.heapBudget[i] - std::min(told.heapBudget[i], told.heapUsage[i]));
     }
-    return memory_bytes_ > 0 ? std::min(left, memory_bytes_) : left;
+    return memory_bytes_ > 0 ? std::min(left, without_held(memory_bytes_)) : left;
 }
 
 int Device::find_memory_type(uint32_t allowed, vk::MemoryPropertyFlags wanted) const {

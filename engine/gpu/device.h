@@ -58,9 +58,9 @@ class Device {
     const vk::DispatchLoaderDynamic& ray_functions() const { return *ray_functions_; }
     /// Size of the largest heap of device-local memory, bytes.
     vk::DeviceSize memory_size() const;
-    /// Bytes that may be used of it now: what the driver says is left (VK_EXT_memory_budget, else all), at most the
-    /// settings' memory_bytes.
-    vk::DeviceSize memory_budget() const;
+    /// Bytes that may be used of it now, `held` bytes being in use by this program: what the driver says is left
+    /// (VK_EXT_memory_budget, else what is not held), at most what is left of the settings' memory_bytes.
+    vk::DeviceSize memory_budget(vk::DeviceSize held = 0) const;
     /// Index of a memory type among `allowed` bits with all `wanted` properties, or -1.
     int find_memory_type(uint32_t allowed, vk::MemoryPropertyFlags wanted) const;
     /// What the validation layer said so far; empty without validation.

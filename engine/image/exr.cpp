@@ -13,6 +13,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/one_line.h"
 #include "base/replaced_file.h"
 
 namespace lw {
@@ -97,13 +98,6 @@ Image read_channels(std::ifstream& stream, const std::string& name, uint64_t fil
     file.setFrameBuffer(buffer);
     file.readPixels(header.dataWindow().min.y, header.dataWindow().max.y);
     return image;
-}
-
-/// Library messages may quote the file's bytes or run over lines; an Error is one printable line.
-std::string one_line(std::string message) {
-    for (char& c : message)
-        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    return message;
 }
 
 }  // namespace

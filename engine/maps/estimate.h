@@ -16,7 +16,8 @@ namespace lw {
 struct GatherSettings {
     uint mode = gather_mode_cached;
     uint neighbours = 300;  // photons per estimate
-    uint shadow_rays = 4;   // per emissive mesh; 0: none, shadows as sharp as the lattice, of lobes mirrors alone followed
+    // Per emissive mesh; 0: none where the map has a lattice, shadows as sharp as that, of lobes mirrors alone followed.
+    uint shadow_rays = 4;
     uint paths = 1;         // per pixel along lobes that are followed
     float followed_roughness = widest_followed_roughness;  // lobes of surfaces smoother than this, at most 1, are followed
 };
@@ -53,7 +54,7 @@ class PhotonEstimator : public SurfaceReader {
           scene_size(scene.size()),
           emitters(scene.emitters.data()),
           shadow_rays(settings.shadow_rays),
-          has_shadow_rays(settings.shadow_rays > 0),
+          has_shadow_rays(settings.shadow_rays > 0 || !map.has_visible_lamps()),
           has_followed(!bvh.nodes.empty()),
           looks_through(!bvh.nodes.empty()),
           followed_roughness(settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f) : std::sqrt(smallest_alpha)),

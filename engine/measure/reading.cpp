@@ -64,8 +64,10 @@ bool is_dark(const Reading& reading) {
 
 void check_is_light(std::span<const Reading> readings) {
     for (size_t i = 0; i < readings.size(); ++i)
-        for (const auto& values : {readings[i].lamps, readings[i].repeated, readings[i].photon_variance})
-            for (const ChannelLux& lux : values)
+        for (const std::vector<ChannelLux>* values :
+             {&readings[i].lamps, &readings[i].repeated, &readings[i].scatter, &readings[i].photon_variance,
+              &readings[i].by_photons, &readings[i].blur})
+            for (const ChannelLux& lux : *values)
                 for (int c = 0; c < 3; ++c)
                     if (!std::isfinite(lux[c]) || lux[c] < 0)
                         throw Error("sensor " + std::to_string(i + 1) + " reads " + std::to_string(lux[c]) +

@@ -4,16 +4,14 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/one_line.h"
 
 namespace lw {
 
 NumberReader::NumberReader(const std::string& text, const std::string& name) : text_(text), name_(name) {}
 
 void NumberReader::fail(const std::string& what) const {
-    std::string text = name_ + ": line " + std::to_string(line_) + ": " + what;
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
-    throw Error(text);
+    throw Error(one_line(name_ + ": line " + std::to_string(line_) + ": " + what));
 }
 
 std::string NumberReader::line(const std::string& what) {

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/one_line.h"
 #include "scene/content_hash.h"
 #include "scene/gltf_cameras.h"
 #include "scene/gltf_geometry.h"
@@ -24,9 +25,9 @@ Scene load_gltf(const std::filesystem::path& path) try {
     scene.warnings = std::move(file.warnings);
     return scene;
 } catch (const std::bad_alloc&) {
-    throw Error(path.filename().string() + ": needs more memory than there is");
+    throw Error(one_line(path.filename().string() + ": needs more memory than there is"));
 } catch (const std::length_error&) {
-    throw Error(path.filename().string() + ": needs more memory than there is");
+    throw Error(one_line(path.filename().string() + ": needs more memory than there is"));
 }
 
 }  // namespace lw

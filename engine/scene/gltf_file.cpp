@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/memory.h"
 #include "scene/gltf_extensions.h"
 
 namespace lw {
@@ -202,16 +203,26 @@ bool read_external(std::vector<unsigned char>* bytes, std::string* error, const 
     }
 }
 
-std::string one_line(std::string text) {
+/// tinygltf tells in several lines what it found.
+std::string shortened(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text.size() > 300 ? text.substr(0, 300) + "..." : text;
 }
 
+/// Names are printed and written into tables, each in one line.
+template <class... Lists>
+void clean_names(Lists&... lists) {
+    const auto clean = [](auto& list) {
+        for (auto& entry : list) entry.name = one_line(std::move(entry.name));
+    };
+    (clean(lists), ...);
+}
+
 }  // namespace
 
 void GltfFile::warn(const std::string& what) {
-    const std::string line = name + ": " + what;
+    const std::string line = one_line(name + ": " + what);
     if (std::find(warnings.begin(), warnings.end(), line) == warnings.end()) warnings.push_back(line);
 }
 
@@ -237,8 +248,16 @@ GltfFile open_gltf(const std::filesystem::path& path) {
     } catch (const std::exception& e) {
         error += e.what();
     }
-    if (!parsed) file.fail("malformed glTF: " + one_line(error.empty() ? "unknown reason" : error));
+    if (!parsed) file.fail("malformed glTF: " + shortened(error.empty() ? "unknown reason" : error));
+    tinygltf::Model& m = file.model;
+    clean_names(m.nodes, m.meshes, m.materials, m.cameras, m.lights, m.images);
     return file;
+}
+
+void check_memory(const GltfFile& file, const std::string& what, uint64_t bytes) {
+    constexpr uint64_t always_there = uint64_t(256) << 20;  // not worth asking
+    if (bytes > always_there && bytes > available_memory())
+        file.fail(what + " take " + bytes_text(bytes) + ", there are " + bytes_text(available_memory()));
 }
 
 std::string decoded_uri(const GltfFile& file, const std::string& uri) {

@@ -9,11 +9,14 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/one_line.h"
 
 namespace lw {
 
 /// Largest extent of a scene; farther, distances to powers overflow the floats of rays and estimates.
 constexpr double most_metres = 1e9;
+/// Most cd, lx and cd/m2 of a lamp, which leaves the squares of errors within floats.
+constexpr float most_strength = 1e15f;
 
 struct GltfFile {
     std::string name;  // file name without folder, the first word of every message
@@ -21,7 +24,7 @@ struct GltfFile {
     std::vector<std::string> warnings;
 
     /// Throws Error("name: what").
-    [[noreturn]] void fail(const std::string& what) const { throw Error(name + ": " + what); }
+    [[noreturn]] void fail(const std::string& what) const { throw Error(one_line(name + ": " + what)); }
     /// Adds a warning unless the same was said before.
     void warn(const std::string& what);
 };
@@ -29,6 +32,9 @@ struct GltfFile {
 /// Reads and parses a .glb or .gltf (told apart by content) with its external buffers; images stay encoded in
 /// Image::image. Throws Error for a truncated file, an unsupported extensionsRequired entry, a URI out of the folder.
 GltfFile open_gltf(const std::filesystem::path& path);
+
+/// Refuses what would not fit into memory, before it is asked for: "WHAT take 5 GB, there are 4 GB".
+void check_memory(const GltfFile& file, const std::string& what, uint64_t bytes);
 
 /// The path that a URI of the file names, relative to its folder. Throws Error for one that leaves the folder.
 std::string decoded_uri(const GltfFile& file, const std::string& uri);

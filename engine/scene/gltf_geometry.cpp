@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 
-#include "base/memory.h"
 #include "scene/gltf_primitive.h"
 
 namespace lw {
@@ -20,14 +19,11 @@ struct PlacedMesh {
     glm::dmat4 world;
 };
 
-/// Refuses what would not fit, before it is asked for: a short file can name one long accessor many times.
-void check_memory(const GltfFile& file, uint64_t vertices, uint64_t triangles) {
+/// Before it is asked for: a short file can name one long accessor many times.
+void check_counts(const GltfFile& file, uint64_t vertices, uint64_t triangles) {
     constexpr uint64_t bytes_per_vertex = 72, bytes_per_triangle = 16;  // of Scene, all optional arrays present
-    constexpr uint64_t always_there = uint64_t(256) << 20;              // not worth asking
-    const uint64_t bytes = vertices * bytes_per_vertex + triangles * bytes_per_triangle;
-    if (bytes > always_there && bytes > available_memory())
-        file.fail("its " + std::to_string(triangles) + " triangles take " + bytes_text(bytes) + ", there are " +
-                  bytes_text(available_memory()));
+    check_memory(file, "its " + std::to_string(triangles) + " triangles",
+                 vertices * bytes_per_vertex + triangles * bytes_per_triangle);
 }
 
 std::vector<PlacedMesh> place_meshes(GltfFile& file, const std::vector<PlacedNode>& nodes, const Scene& scene,
@@ -50,7 +46,7 @@ std::vector<PlacedMesh> place_meshes(GltfFile& file, const std::vector<PlacedNod
                 it->second.push_back(decode_primitive(file, size_t(node.mesh), i, scene));
                 vertices += it->second.back().positions.size();
                 triangles += it->second.back().triangles.size();
-                check_memory(file, vertices, triangles);
+                check_counts(file, vertices, triangles);
             }
         for (const glm::dmat4& world : instances_of(file, at)) placed.push_back({at.node, &it->second, world});
     }
@@ -78,7 +74,7 @@ void find_origin(const GltfFile& file, const std::vector<PlacedMesh>& placed, Sc
     if (triangles == 0) file.fail("the scene has no triangles");
     if (std::max(vertices, triangles) >= std::numeric_limits<uint>::max())
         file.fail("the scene has more than 2^32 vertices or triangles");
-    check_memory(file, vertices, triangles);
+    check_counts(file, vertices, triangles);
     glm::dvec3 low(std::numeric_limits<double>::max()), high = -low;
     for (const PlacedMesh& mesh : placed)
         for (const LocalPrimitive& p : *mesh.mesh)

@@ -136,6 +136,8 @@ void load_materials(GltfFile& file, Scene& scene) {
         if (!std::isfinite(m.ior) || (m.ior != 0 && m.ior < 1)) file.fail(where + ": ior must be 0 or at least 1");
         if (!std::isfinite(m.emissive.x + m.emissive.y + m.emissive.z))
             file.fail(where + ": the emission is not finite");
+        if (m.emissive.x + m.emissive.y + m.emissive.z > most_strength)
+            file.fail(where + ": the emission is larger than 1e15");
         if (!is_finite(m)) file.fail(where + ": a factor is not finite");
         scene.materials.push_back(m);
         scene.material_names.push_back(source.name.empty() ? "material_" + std::to_string(i) : source.name);

@@ -64,6 +64,7 @@ void add_profile_light(GltfFile& file, const PlacedNode& at, Scene& scene) {
     light.across = across_of(at, light.direction);
     attach_photometry(photometry_of(file, index_of(*extension, "light", -1), scene), light, scene);
     light.intensity *= vec3(color * multiplier);
+    if (!(dot(light.intensity, vec3(1)) <= most_strength)) file.fail(where + ": the intensity is larger than 1e15");
     scene.lights.push_back(light);
     scene.light_names.push_back(node.name.empty() ? "light_" + std::to_string(scene.lights.size()) : node.name);
 }

@@ -128,6 +128,7 @@ std::optional<TextureLoader::Picture> TextureLoader::picture(int index, const st
     const size_t first = scene_.texels.size(), count = size_t(decoded->width) * size_t(decoded->height);
     if (first + count > std::numeric_limits<uint>::max())
         file_.fail(name + ": the textures have more than 2^32 texels");
+    check_memory(file_, name + ": the textures", (first + count) * sizeof(scene_.texels[0]));
     scene_.texels.resize(first + count);
     for (size_t i = 0; i < count; ++i) scene_.texels[first + i] = packed_texel(*decoded, i);
     it->second = Picture{uint(first), uint(decoded->width), uint(decoded->height)};

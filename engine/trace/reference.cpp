@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "scene/camera.h"
@@ -93,6 +94,12 @@ class CausticRadii {
 };
 
 }  // namespace
+
+void check_reference_fits(const ReferenceSettings& settings, uint64_t available) {
+    constexpr uint64_t channels = 13;  // of the image, and as many once more while it is written
+    check_picture_fits(uint64_t(settings.width), uint64_t(settings.height),
+                       sizeof(PixelSum) + sizeof(FirstHit) + 2 * channels * sizeof(float), available);
+}
 
 Reference render_reference(const Scene& scene, const RayCaster& caster, const Camera& camera,
                            const std::vector<vec3>& weights, const ReferenceSettings& settings) {

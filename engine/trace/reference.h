@@ -27,6 +27,9 @@ struct Reference {
     float caustic_radius = 0;  // m, root mean square over the samples: the blur of caustics; 0 without any
 };
 
+/// Throws Error telling what would fit when a picture of this size takes more than `available` bytes.
+void check_reference_fits(const ReferenceSettings& settings, uint64_t available);
+
 /// Renders through pixel centres, as the gather does, so that pictures can be compared pixel by pixel.
 Reference render_reference(const Scene& scene, const RayCaster& caster, const Camera& camera,
                            const std::vector<vec3>& weights, const ReferenceSettings& settings);

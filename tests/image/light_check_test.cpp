@@ -38,7 +38,8 @@ TEST(LightCheck, RefusesAReadingThatIsNoLightAndNamesItsSensor) {
     using Limits = std::numeric_limits<float>;
     for (float bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), -1e-6f})
         for (std::vector<ChannelLux> Reading::*part :
-             {&Reading::lamps, &Reading::repeated, &Reading::photon_variance}) {
+             {&Reading::lamps, &Reading::repeated, &Reading::scatter, &Reading::photon_variance, &Reading::by_photons,
+              &Reading::blur}) {
             Reading broken = good;
             (broken.*part)[1].z = bad;
             try {

@@ -263,6 +263,32 @@ TEST(GltfErrors, FactorsBeyondTheFloatsAreRefusedOrBounded) {
     EXPECT_NE(message(camera).find("the camera is too far away"), std::string::npos) << message(camera);
 }
 
+TEST(GltfErrors, LampsBeyondAllLampsAreRefused) {
+    GltfText g = square();
+    Json& lamp = g.doc["extensions"]["KHR_lights_punctual"]["lights"][0];
+    lamp["intensity"] = 9e14 / 3;
+    EXPECT_EQ(message(g), "");
+    lamp["intensity"] = 1.1e15;
+    EXPECT_EQ(message(g), "room.gltf: light 0: the intensity is larger than 1e15");
+    lamp["intensity"] = 1;
+    add_material(g, {{"name", "hot"}, {"emissiveFactor", {1, 1, 1}}});
+    g.doc["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 1.1e15;
+    EXPECT_EQ(message(g), "room.gltf: material 0 \"hot\": the emission is larger than 1e15");
+}
+
+/// Names come from strangers and go to terminals and into tables.
+TEST(GltfErrors, NamesAreToldInOnePlainLine) {
+    GltfText g = square();
+    g.doc["meshes"][0]["name"] = "two\nlines";
+    g.doc["nodes"][1]["name"] = "red\x1b[31m\r\n";
+    const Scene s = g.load();
+    EXPECT_EQ(s.light_names, std::vector<std::string>{"red?[31m??"});
+    g.primitive()["attributes"].erase("POSITION");
+    EXPECT_EQ(message(g), "room.gltf: mesh 0 \"two?lines\": primitive 0 has no POSITION");
+    g.doc["extensionsRequired"] = {"KHR\nlines"};
+    EXPECT_EQ(message(g), "room.gltf: requires the extension KHR?lines, which is not supported");
+}
+
 TEST(GltfErrors, VertexColoursOutsideTheirRangeMakeNoLight) {
     GltfText g = square();
     g.floats("COLOR_0", {-1, 2, 0.5f, 1, 1e30f, -1e30f, 0, 1, 0, 0, 0, 0, 1, 1, 1, 7}, "VEC4");

@@ -1,7 +1,10 @@
 // Writes small glTF files for the tests: attributes as arrays in C++, the rest as JSON that a test may bend.
 #pragma once
+#include <gtest/gtest.h>
+
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -90,13 +93,21 @@ inline GltfText square() {
     return g;
 }
 
-/// The message of the Error that loading throws; empty when it loads.
+/// Whether a message is one printable line that names a file.
+inline bool is_one_line_of_a_file(const std::string& message) {
+    const auto steers = [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; };
+    return std::none_of(message.begin(), message.end(), steers) && message.find(": ") != std::string::npos &&
+           message.find(": ") > 0;
+}
+
+/// The message of the Error that loading throws, one line; empty when it loads.
 template <class Load>
 std::string error_of(const Load& load) {
     try {
         load();
         return {};
     } catch (const Error& e) {
+        EXPECT_TRUE(is_one_line_of_a_file(e.what())) << e.what();
         return e.what();
     }
 }

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/parallel.h"
+#include "base/program.h"
 #include "document.h"
 #include "sections.h"
 
@@ -139,12 +139,5 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& wrong) {
         return app.exit(wrong) == 0 ? 0 : 2;
     }
-    try {
-        lw::watch_for_interrupt();
-        run(options);
-    } catch (const std::exception& failure) {
-        std::fprintf(stderr, "lumenwalk-benchmark: %s\n", failure.what());
-        return 1;
-    }
-    return 0;
+    return lw::run_program("lumenwalk-benchmark", [&] { run(options); });
 }
