@@ -107,6 +107,45 @@ void append_by_triangle(std::span<const Chunk> chunks, size_t triangles, std::ve
         for (const Photon& photon : chunk.photons) records[next[photon.triangle / per_bucket]++] = photon;
 }
 
+/// Tasks on their way: while some are traced, the photons of those before are appended. Their buffers are used again and
+/// again, as fresh memory costs time.
+class Waves {
+  public:
+    Waves(const PhotonTracer& tracer, size_t triangles, Photons& photons, Progress& progress)
+        : tracer_(tracer), triangles_(triangles), photons_(photons), progress_(progress) {}
+
+    void trace(std::span<Chunk> wave) {
+        parallel_for(wave.size() + 1, [&](size_t i) {
+            if (i == 0) return append();
+            Chunk& chunk = wave[i - 1];
+            chunk.photons.swap(buffers_[i - 1]);
+            tracer_.trace(chunk, double(photons_.lights[chunk.light].emitted));
+            progress_.step(chunk.photons.size());
+        });
+        traced_ = wave;
+        buffers_.swap(appended_);
+    }
+
+    void append() {
+        append_by_triangle(traced_, triangles_, photons_.records);
+        for (size_t i = 0; i < traced_.size(); ++i) {
+            add_to(photons_.lights[traced_[i].light], traced_[i]);
+            traced_[i].photons.clear();
+            traced_[i].photons.swap(appended_[i]);
+        }
+        traced_ = {};
+    }
+
+  private:
+    const PhotonTracer& tracer_;
+    size_t triangles_;
+    Photons& photons_;
+    Progress& progress_;
+    std::span<Chunk> traced_;
+    using Buffers = std::vector<std::vector<Photon>>;
+    Buffers buffers_ = Buffers(chunks_at_once), appended_ = Buffers(chunks_at_once);
+};
+
 }  // namespace
 
 Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSettings& settings) {
@@ -120,23 +159,10 @@ Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSe
     for (uint light = 0; light < emitted.size(); ++light) photons.lights[light].emitted = emitted[light];
     photons.records.reserve(size_t(1.02 * double(settings.photons)));  // about what comes; more is no error
     Progress progress("photons", settings.photons);
-    std::vector<std::vector<Photon>> buffers(chunks_at_once);  // used again and again: fresh memory costs time
-    for (size_t first = 0; first < chunks.size(); first += chunks_at_once) {
-        const size_t count = std::min(chunks_at_once, chunks.size() - first);
-        parallel_for(count, [&](size_t i) {
-            Chunk& chunk = chunks[first + i];
-            chunk.photons.swap(buffers[i]);
-            tracer.trace(chunk, double(emitted[chunk.light]));
-            progress.step(chunk.photons.size());
-        });
-        append_by_triangle({&chunks[first], count}, scene.triangles.size(), photons.records);
-        for (size_t i = 0; i < count; ++i) {
-            Chunk& chunk = chunks[first + i];
-            add_to(photons.lights[chunk.light], chunk);
-            chunk.photons.clear();
-            chunk.photons.swap(buffers[i]);
-        }
-    }
+    Waves waves(tracer, scene.triangles.size(), photons, progress);
+    for (size_t first = 0; first < chunks.size(); first += chunks_at_once)
+        waves.trace(std::span(chunks).subspan(first, std::min(chunks_at_once, chunks.size() - first)));
+    waves.append();
     return photons;
 }
 
