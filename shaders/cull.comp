@@ -1,4 +1,4 @@
-// Finds the triangles that may cover the centre of a pixel. Whoever is in doubt stays: the picture is that of all triangles.
+// Finds the triangles that may cover the centre of a pixel. Those in doubt stay: the picture is that of all triangles.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -34,17 +34,17 @@ bool is_outside(Cluster box) {
            is_beyond(centre, half_size, ahead * slope.y + frame.camera_up, 0.0f);
 }
 
-/// Twice the area of the triangle that two points make with the origin, when the rasterizer and rounding may have moved each
-/// by pixel_margin: the least and the most. Both grow by `reach`.
+/// Twice the area of the triangle that two points make with any point at most `reach` from the origin, when the
+/// rasterizer and rounding may have moved the two by pixel_margin: the least and the most.
 vec2 area_with(vec2 p, vec2 q, vec2 reach) {
-    vec2 side = abs(q - p), far = abs(p) + abs(q) + 2.0f * pixel_margin;
+    vec2 side = abs(q - p) + 2.0f * pixel_margin, far = abs(p) + abs(q) + 2.0f * pixel_margin;
     float slack = pixel_margin * (far.x + far.y) + side.x * reach.y + side.y * reach.x;
     return p.x * q.y - p.y * q.x + vec2(-slack, slack);
 }
 
-/// Corners in pixels, in front of the near plane. False when there is no pixel centre in the triangle's box, or one side has
-/// all of them beyond it. A triangle across a border of the picture stays: it is clipped, and its corners may be far away,
-/// where rounding exceeds the margin.
+/// Corners in pixels, in front of the near plane. False when there is no pixel centre in the triangle's box, or one side
+/// has all of them beyond it. A triangle across a border of the picture stays: it is clipped, and its corners may be far
+/// away, where rounding exceeds the margin.
 bool may_cover_centre(vec2 p, vec2 q, vec2 r) {
     vec2 size = vec2(frame.width, frame.height), low = min(p, min(q, r)), high = max(p, max(q, r));
     if (any(lessThan(high, vec2(0.0f))) || any(greaterThan(low, size))) return false;

@@ -1,5 +1,5 @@
-// Places in the list for the triangles that each block keeps: an exclusive scan in one group, each invocation a run of blocks.
-// Sizes the draws, and fills up their last instance.
+// Places in the list for the triangles that each block keeps: an exclusive scan in one group, each invocation a run of
+// blocks. Sizes the draws, and fills up their last instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

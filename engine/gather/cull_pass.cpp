@@ -19,7 +19,8 @@ std::vector<Binding> cull_bindings() {
 }
 
 Cluster make_cluster(const Scene& scene, uint first) {
-    Cluster cluster{vec3(1e30f), first, vec3(-1e30f), std::min(first + cluster_triangles, uint(scene.triangles.size()))};
+    const auto count = uint(scene.triangles.size());
+    Cluster cluster{vec3(1e30f), first, vec3(-1e30f), std::min(first + cluster_triangles, count)};
     for (uint t = first; t < cluster.end; ++t)
         for (int c = 0; c < 3; ++c) {
             const vec3 p = scene.positions[scene.triangles[t][c]];
@@ -31,8 +32,8 @@ Cluster make_cluster(const Scene& scene, uint first) {
 /// True when some of the triangles are cut out, blended or transmissive.
 bool is_see_through(const Scene& scene, const Cluster& cluster) {
     for (uint t = cluster.first; t < cluster.end; ++t) {
-        const Material& material = scene.material_of(t);
-        if ((material.flags & (material_alpha_mask | material_alpha_blend)) != 0 || material.transmission > 0) return true;
+        const Material& m = scene.material_of(t);
+        if ((m.flags & (material_alpha_mask | material_alpha_blend)) != 0 || m.transmission > 0) return true;
     }
     return false;
 }
@@ -81,7 +82,8 @@ CullPass::CullPass(const Device& device, const Resident& resident, size_t culled
     const auto count = uint(clusters.size());
     blocks_ = blocks_per_cluster * count;
     first_see_through_ = cluster_triangles * opaque;
-    const DrawArguments whole[] = {{3 * cluster_triangles, opaque, 0, 0}, {3 * cluster_triangles, count - opaque, 0, 0}};
+    const DrawArguments whole[] = {{3 * cluster_triangles, opaque, 0, 0},
+                                   {3 * cluster_triangles, count - opaque, 0, 0}};
     clusters_ = upload<Cluster>(device, clusters, "clusters of triangles");
     survivors_ = upload<Survivors>(device, std::vector<Survivors>(blocks_), "triangles in view");
     draws_ = upload<DrawArguments>(device, whole, "draws");

@@ -1,5 +1,6 @@
-// Lists the triangles that may cover the centre of a pixel, in the scene's order, for the draw (decision 0013): a rasterizer on
-// the CPU takes longer over a triangle without pixels than a compute shader. The picture is that of all triangles.
+// Lists the triangles that may cover the centre of a pixel, in the scene's order, for the draw (decision 0013): a
+// rasterizer on the CPU takes longer over a triangle without pixels than a compute shader. The picture is that of all
+// triangles.
 #pragma once
 #include "gather/resident.h"
 #include "shaders/cull.h"

@@ -30,8 +30,9 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
     // An acceleration structure and what building it takes; on Mesa's software rasterizer 70 bytes stay.
     const uint64_t rays_per_triangle = queries_rays ? 200 : 0;
     const uint64_t corner = 32 + (s.uv1.empty() ? 0 : 8) + (s.colors.empty() ? 0 : 16) + (s.tangents.empty() ? 0 : 16);
-    return s.triangles.size() * (3 * corner + sizeof(uvec4) + rays_per_triangle) + bytes(s.texels) + list_bytes(s) +
-           m.bytes() + m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
+    return s.triangles.size() * (3 * corner + sizeof(uvec4) + rays_per_triangle) + list_bytes(s) + bytes(s.texels) +
+           m.bytes() +
+           m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
 }
 
 /// Photons of a map that fits beside `others` bytes, one significant digit: a map grows with its photons.
