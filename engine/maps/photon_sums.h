@@ -20,6 +20,7 @@ class PhotonSums {
     void add(vec3 local, float radius, std::span<vec4> sums) const;
 
   private:
+    void add_row(size_t first, size_t last, vec3 local, float inverse_radius2, std::span<vec4> sums) const;
     void add_run(size_t first, size_t last, vec3 local, float inverse_radius2, std::span<vec4> sums) const;
 
     const SurfaceGrid& grid_;
