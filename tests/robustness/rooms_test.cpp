@@ -81,6 +81,7 @@ Room scaled_in_vertices(double scale, bool undone_by_node) {
     for (Soup* soup : {&room.walls, &room.block, &room.panel})
         *soup = moved(*soup, [=](glm::dvec3 p) { return p * scale; });
     room.lamp *= scale, room.eye *= scale;
+    room.unit = scale;
     if (undone_by_node)
         room.node = glm::scale(glm::dmat4(1), glm::dvec3(1 / scale));
     else
