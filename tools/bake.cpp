@@ -1,6 +1,4 @@
 // lumenwalk-bake: photons of a glTF building into its photon map file.
-#include <sys/resource.h>
-
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <chrono>
@@ -80,8 +78,6 @@ void print_lights(const lw::Scene& scene, const lw::Photons& photons) {
 
 void print_map(const lw::PhotonMap& map, size_t triangles) {
     const uint64_t bytes = map.bytes();
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
     std::printf("%zu triangles, %zu maps, radius %.4g m, %.3f references per photon\n", triangles, map.grids.size(),
                 double(map.settings.radius),
                 double(map.places.size()) / double(std::max<uint64_t>(map.stored_photons, 1)));
@@ -90,7 +86,7 @@ void print_map(const lw::PhotonMap& map, size_t triangles) {
             "%u of the maps hold caustics, with %zu references\n", map.caustic_grids,
             map.places.size() - size_t(map.cell_starts[map.grids[map.grids.size() - map.caustic_grids].first_cell]));
     std::printf("map %.1f MB (%.1f bytes per stored photon), peak memory %.0f MB\n", double(bytes) / 1e6,
-                double(bytes) / double(std::max<uint64_t>(map.stored_photons, 1)), double(usage.ru_maxrss) / 1024);
+                double(bytes) / double(std::max<uint64_t>(map.stored_photons, 1)), double(lw::peak_memory()) / 1048576);
 }
 
 void bake(const Options& options) {

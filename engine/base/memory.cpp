@@ -72,6 +72,8 @@ uint64_t available_memory() { return std::min({available_in_system(), available_
 
 uint64_t resident_memory() { return bytes_of_process("VmRSS:"); }
 
+uint64_t peak_memory() { return bytes_of_process("VmHWM:"); }
+
 std::string bytes_text(uint64_t bytes) {
     char text[32];
     if (bytes >= 1'000'000'000)

@@ -12,6 +12,9 @@ uint64_t available_memory();
 /// Bytes of memory that this process holds at the moment; 0 when the system does not tell.
 uint64_t resident_memory();
 
+/// The most it ever held; what a large process that started it holds does not count, as it does in getrusage(2).
+uint64_t peak_memory();
+
 /// "12 MB", "3.4 GB": powers of ten.
 std::string bytes_text(uint64_t bytes);
 

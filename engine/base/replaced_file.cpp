@@ -26,7 +26,8 @@ std::string name_of(int file) { return "/proc/self/fd/" + std::to_string(file); 
 
 }  // namespace
 
-ReplacedFile::ReplacedFile(const std::filesystem::path& path, bool nameless) : path_(path), partial_(partial_name(path)) {
+ReplacedFile::ReplacedFile(const std::filesystem::path& path, bool nameless)
+    : path_(path), partial_(partial_name(path)) {
     std::error_code failure;
     const std::filesystem::file_status there = std::filesystem::status(path_, failure);
     if (std::filesystem::is_directory(there)) throw Error(path_.string() + ": is a folder, not a file");

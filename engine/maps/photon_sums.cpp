@@ -11,6 +11,7 @@ namespace lw {
 namespace {
 
 constexpr size_t run_length = 128;  // photons weighed at once
+constexpr size_t summed_at_once = 1024;
 
 int cell_at(float metres, float cell_size, uint count) {
     return int(clamp(std::floor(metres / cell_size), -1.0f, float(count)));
@@ -47,7 +48,18 @@ void PhotonSums::add(vec3 local, float radius, std::span<vec4> sums) const {
         const int x1 = std::min(cell_at(local.x + half_width, size, grid_.columns), int(grid_.columns) - 1);
         if (x0 > x1) continue;
         const uint* row = starts_ + size_t(y) * grid_.columns;
-        add_run(row[x0] - first_, row[x1 + 1] - first_, local, 1 / r2, sums);
+        add_row(row[x0] - first_, row[x1 + 1] - first_, local, 1 / r2, sums);
+    }
+}
+
+/// Runs of many photons are summed apart, so that sums of millions do not drift.
+void PhotonSums::add_row(size_t first, size_t last, vec3 local, float inverse_radius2, std::span<vec4> sums) const {
+    if (last - first <= summed_at_once) return add_run(first, last, local, inverse_radius2, sums);
+    std::vector<vec4> apart(sums.size());
+    for (; first < last; first += std::min(last - first, summed_at_once)) {
+        std::fill(apart.begin(), apart.end(), vec4(0));
+        add_run(first, first + std::min(last - first, summed_at_once), local, inverse_radius2, apart);
+        for (size_t i = 0; i < sums.size(); ++i) sums[i] += apart[i];
     }
 }
 

@@ -21,6 +21,7 @@ class PhotonSums {
 
   private:
     void weigh(size_t first, size_t count, vec3 local, float inverse_radius2, float* weights) const;
+    void add_row(size_t first, size_t last, vec3 local, float inverse_radius2, std::span<vec4> sums) const;
     void add_run(size_t first, size_t last, vec3 local, float inverse_radius2, std::span<vec4> sums) const;
 
     const SurfaceGrid& grid_;

@@ -52,7 +52,10 @@ TEST(Corpus, OfGltfFilesIsRefusedOrBakes) {
 }
 
 TEST(Corpus, OfMapsIsRefusedOrGathers) {
-    for (const std::filesystem::path& path : files_in("corpus_map")) ASSERT_NO_THROW(feed_map(bytes_of(path))) << path;
+    size_t accepted = 0;
+    for (const std::filesystem::path& path : files_in("corpus_map"))
+        ASSERT_NO_THROW(accepted += feed_map(bytes_of(path)).has_value()) << path;
+    EXPECT_GE(accepted, 1u) << "none is of the present version";
 }
 
 }  // namespace

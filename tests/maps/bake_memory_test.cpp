@@ -50,6 +50,11 @@ TEST(BakeMemory, IsPredictedWithinAFactor) {
     }
 }
 
+TEST(BakeMemory, ThatIsToldIsOfTheBakeAloneHoweverMuchHoldsWhatStartedIt) {
+    const std::vector<char> held(400'000'000, 1);
+    EXPECT_LT(measured_bytes("cube.gltf", 1000, "auto"), 2e8) << held.back();
+}
+
 TEST(BakeMemory, ThatIsTooMuchIsRefusedAtTheStartWithWhatWouldFit) {
     const TempFolder folder;
     const Outcome outcome =

@@ -121,8 +121,10 @@ TEST_F(Surroundings, NamesThatSteerATerminalAreToldInOnePlainLine) {
 }
 
 TEST_F(Surroundings, FilesWithOddNamesAreReadAndWritten) {
-    for (const char* name : {"a room", "-room", "zimmer \xc3\xa4\xe2\x82\xac \xf0\x9f\x92\xa1", "two\nlines", "100%", "'quoted'"}) {
-        const std::string scene = *folder / (std::string(name) + ".gltf"), map = *folder / (std::string(name) + ".pmap");
+    const std::string names[] = {"a room",     "-room", "zimmer \xc3\xa4\xe2\x82\xac \xf0\x9f\x92\xa1",
+                                 "two\nlines", "100%",  "'quoted'"};
+    for (const std::string& name : names) {
+        const std::string scene = *folder / (name + ".gltf"), map = *folder / (name + ".pmap");
         std::filesystem::copy_file(cube(), scene);
         EXPECT_EQ(run("bake", {"--photons", "2000", scene}).exit_code, 0) << name;
         EXPECT_TRUE(read_text(map) == read_text(*folder / "map")) << name;
@@ -137,14 +139,14 @@ TEST_F(Surroundings, ALocaleWithDecimalCommasChangesNoNumber) {
     for (const char* line : {"$BIN/lumenwalk-bake $CUBE -o @.pmap --photons 2000 --radius 0.25 --neighbour-angle 45.5",
                              "$BIN/lumenwalk-reference $CUBE -o @.exr --size 4x4 --samples 1 --power lamp=0.5",
                              "$BIN/lumenwalk-measure $CUBE map --points points.csv --power lamp=0.5 --csv @.csv"}) {
-        std::vector<std::string> files, printed;
+        std::vector<std::string> files;
         for (const char* before : {"", "LOCPATH=$PWD LC_ALL=de_DE.UTF-8 LANG=de_DE.UTF-8 "}) {
             std::string words = before + std::string(line);
             words.replace(words.find('@'), 1, "number");
             const Outcome outcome = in_shell(*folder, words);
             EXPECT_EQ(outcome.exit_code, 0) << words << ": " << outcome.err;
-            const std::string name = words.substr(words.find("number."), words.find(' ', words.find("number.")) - words.find("number."));
-            files.push_back(read_text(*folder / name));
+            const size_t at = words.find("number.");
+            files.push_back(read_text(*folder / words.substr(at, words.find(' ', at) - at)));
         }
         EXPECT_FALSE(files[0].empty());
         EXPECT_TRUE(files[0] == files[1]) << line;
@@ -154,9 +156,10 @@ TEST_F(Surroundings, ALocaleWithDecimalCommasChangesNoNumber) {
 TEST_F(Surroundings, AnEnvironmentOfNonsenseChangesNoPicture) {
     SKIP_WITHOUT_LAVAPIPE();
     const std::string nonsense =
-        "env -u HOME TMPDIR=/nowhere XDG_CACHE_HOME=/nowhere XDG_RUNTIME_DIR=/nowhere LANG=nonsense LC_ALL=xx COLUMNS=0 "
-        "TERM= DISPLAY=nonsense WAYLAND_DISPLAY=nonsense LP_NUM_THREADS=-5 TZ=nonsense ";
-    const std::string line = "$BIN/lumenwalk-screenshot $CUBE map --size 16x12 --frames 1 --gather smooth --device llvmpipe -o ";
+        "env -u HOME TMPDIR=/nowhere XDG_CACHE_HOME=/nowhere XDG_RUNTIME_DIR=/nowhere LANG=nonsense LC_ALL=xx "
+        "COLUMNS=0 TERM= DISPLAY=nonsense WAYLAND_DISPLAY=nonsense LP_NUM_THREADS=-5 TZ=nonsense ";
+    const std::string line =
+        "$BIN/lumenwalk-screenshot $CUBE map --size 16x12 --frames 1 --gather smooth --device llvmpipe -o ";
     EXPECT_EQ(in_shell(*folder, line + "plain.png").exit_code, 0);
     const Outcome outcome = in_shell(*folder, nonsense + line + "odd.png");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -217,7 +220,8 @@ TEST(CommandLines, WithNumbersThatAreNoneAreRefusedWith2) {
             for (const char* value : {"nan", "-nan", "inf", "-inf", "1e999", "", "five"}) {
                 Words words{cube(), name + "=" + value};
                 if (program == "measure") words.insert(words.end(), {"--points", points});
-                if (program == "reference" || program == "screenshot") words.insert(words.end(), {"-o", "/nowhere/x.exr"});
+                if (program == "reference" || program == "screenshot")
+                    words.insert(words.end(), {"-o", "/nowhere/x.exr"});
                 if (program.empty()) words.insert(words.end(), {"--play", "/nowhere/path.json"});
                 EXPECT_EQ(run(program, words).exit_code, 2) << program << " " << name << "=" << value;
             }

@@ -1,5 +1,5 @@
-// The light that the programs show by default - direct light exact, with shadow rays or with the shadows of the lattice -
-// where it is easily wrong: behind walls of a millimetre, under a sheet, outside a shade, beside a lamp that touches a wall.
+// The light that the programs show by default - direct light exact, by shadow rays or with the shadows of the lattice -
+// where it is easily wrong: behind walls of a millimetre, under a sheet, outside a shade, beside a lamp at a wall.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -93,8 +93,11 @@ TEST(Light, OfAParallelSheetACentimetreAboveStaysThere) {
             joined(room.walls, joined(sheet, moved(sheet, [](glm::dvec3 p) { return p - glm::dvec3(0, 1e-4, 0); }))),
             pieces);
         const Baked baked(room, 200'000, 1, true);
-        const double above = lux_below(baked, room, {2, 1.5, 2}, gather_mode_cached);
-        const double below = lux_below(baked, room, {2, 0.005, 2}, gather_mode_cached);
+        double above = 1e9, below = 0;
+        for (uint mode : modes) {
+            above = std::min(above, lux_below(baked, room, {2, 1.5, 2}, mode));
+            below = std::max(below, lux_below(baked, room, {2, 0.005, 2}, mode));
+        }
         tell_case("parallel sheet 1 cm above another, each triangle in " + std::to_string(pieces * pieces),
                   "below < 1 % of above", "%.1f lx above, %.2g below", above, below);
         EXPECT_GT(above, 20) << pieces;

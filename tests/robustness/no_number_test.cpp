@@ -1,5 +1,5 @@
-// Light that is no number, because it is beyond all floats: no program writes or prints it. And maps and cameras for which
-// numbers are hard to find.
+// Light that is no number, because it is beyond all floats: no program writes or prints it. And maps and cameras for
+// which numbers are hard to find.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,8 +52,8 @@ TEST(NoNumber, IsWrittenOrPrintedByNoProgram) {
     expect_refusal(run("measure", {light.scene, "--points", folder / "points.csv", "--csv", folder / "a.csv"}),
                    "which is no light");
     if (!has_lavapipe()) return;
-    expect_refusal(run("screenshot", {light.scene, "-o", folder / "a.png", "--size", "8x8", "--frames", "1", "--ambiance",
-                                      "all", "--device", "llvmpipe"}),
+    expect_refusal(run("screenshot", {light.scene, "-o", folder / "a.png", "--size", "8x8", "--frames", "1",
+                                      "--ambiance", "all", "--device", "llvmpipe"}),
                    "the picture is not written: ");
     EXPECT_EQ(folder.names(), before);
     expect_refusal(run("", {light.scene, "--play", folder / "path.json", "--frames", folder / "frames", "--size",

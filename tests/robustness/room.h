@@ -24,6 +24,7 @@ struct Room {
     glm::dvec3 lamp{2.5, 2.2, 2.5}, eye{3.2, 1.6, 4.2};
     double yfov = 1.1;
     bool double_sided = false;
+    double unit = 1;  // what a metre is in the vertices
     glm::dmat4 node{1};
 };
 
@@ -52,7 +53,7 @@ struct Baked {
 /// Illuminance at the surfaces that rays of the eye meet in fixed directions all around, in lux; -1 where none is met.
 struct Readings {
     std::vector<double> lux;
-    std::vector<glm::dvec3> places;  // from the eye, before `node`
+    std::vector<glm::dvec3> places;  // from the eye, before `node`, in metres of the plain room
 };
 Readings read(const Baked& baked, const Room& room, uint mode);
 

@@ -81,6 +81,7 @@ Room scaled_in_vertices(double scale, bool undone_by_node) {
     for (Soup* soup : {&room.walls, &room.block, &room.panel})
         *soup = moved(*soup, [=](glm::dvec3 p) { return p * scale; });
     room.lamp *= scale, room.eye *= scale;
+    room.unit = scale;
     if (undone_by_node)
         room.node = glm::scale(glm::dmat4(1), glm::dvec3(1 / scale));
     else
@@ -270,7 +271,7 @@ Image picture_of(const Device& device, const Baked& baked, const Camera& camera)
     return renderer.render(near_camera, settings).image;
 }
 
-/// Illuminances of the room's picture, as of the plain room: over the scale, and the picture of a mirrored one turned over.
+/// Illuminances of the room's picture, as of the plain room: over the scale, and that of a mirrored one turned over.
 std::vector<float> illuminances_of(const Device& device, const Baked& baked, const Disguise& disguise) {
     const Image image = picture_of(device, baked, baked.scene.cameras[0]);
     std::vector<float> lux = image.find("illuminance")->values;
@@ -287,8 +288,8 @@ double rmse_of(const std::vector<float>& a, const std::vector<float>& b) {
     return std::sqrt(squares / double(a.size())) / mean_of(a);
 }
 
-/// Of those that change what the shaders compute with: places, sizes, sides. Each takes seconds of making pipelines; that
-/// shaders and CPU estimate the same is the business of other tests.
+/// Of those that change what the shaders compute with: places, sizes, sides. Each takes seconds of making pipelines;
+/// that shaders and CPU estimate the same is the business of other tests.
 constexpr const char* drawn[] = {"_away", "wide_by", "mirrored", "inside_out", "mixed_winding"};
 
 TEST(RobustnessOnADevice, TheRoomHasTheSamePicture) {

@@ -6,6 +6,7 @@
 
 #include "maps/estimate.h"
 #include "maps/packing.h"
+#include "maps/photon_sums.h"
 #include "photons/shoot.h"
 #include "robustness/room.h"
 
@@ -62,6 +63,21 @@ TEST(Sums, OfSixtyFourMillionEqualPhotonsAreTheirFluxOverTheirArea) {
               100 * (double(light.irradiance.y) / expected - 1), double(light.photons));
     EXPECT_GT(light.photons, 4e7f) << s.position.x << " " << s.position.z;
     EXPECT_NEAR(double(light.irradiance.y) / expected, 1, 5e-4);
+}
+
+/// The same at a node of a lattice, as a bake sums it: to what 16-bit places and floats of single photons allow.
+TEST(Sums, OfSixteenMillionEqualPhotonsAtALatticeNodeDoNotDrift) {
+    const EvenPhotons even(4096);
+    const SurfaceGrid& grid = even.map.grids[0];
+    const PhotonSums photons(even.map, grid);
+    std::vector<vec4> parts(PhotonSums::sums_per_lamp, vec4(0));
+    photons.add(vec3(2, 2, 0), grid.radius, parts);
+    double sum = 0;
+    for (const vec4& part : parts) sum += double(part.y);
+    const double expected = double(even.map.places.size()) / 16 * M_PI * double(grid.radius) * double(grid.radius) / 2;
+    tell_case("sum of 17 million equal photons at a node of a lattice", "N flux under the kernel, +-0.001 %", "%+.5f %%",
+              100 * (sum / expected - 1));
+    EXPECT_NEAR(sum / expected, 1, 1e-5);
 }
 
 TEST(Sums, OfALampsPathsAreWhatItSendsOut) {
