@@ -263,12 +263,11 @@ References find_references(const ReferenceInput& input) {
     References sorted = sort_by_patch(input, finder);
     std::vector<Task> tasks = find_foreign(input, finder, sorted);
     References result{{0}, {}};
-    std::vector<uint64_t> foreign_starts(input.patches.count);
     const auto is_kept = [](uint photon) { return photon != moved_out; };
     const auto own_end = [&](size_t p) {
         const auto first = sorted.photons.begin() + int64_t(sorted.starts[p]),
                    last = sorted.photons.begin() + int64_t(sorted.starts[p + 1]);
-        return foreign_starts[p] = result.starts[p] + uint64_t(std::count_if(first, last, is_kept));
+        return result.starts[p] + uint64_t(std::count_if(first, last, is_kept));
     };
     place_counts(tasks, input.patches.count, own_end, [&](size_t, uint64_t place) { result.starts.push_back(place); });
     if (result.starts.back() > 0xfffffff0ull)

@@ -25,7 +25,7 @@ struct Photon {
     uint side() const { return origin >> 16; }                 // 0: front of the triangle, 1: back
 };
 
-/// Asks for a photon that will be read soon: photons lie in the order of their paths, and may lie across two lines of cache.
+/// Asks for a photon that will be read soon; it may lie across two lines of cache.
 inline void prefetch(const Photon& photon) {
     __builtin_prefetch(&photon);
     __builtin_prefetch(reinterpret_cast<const char*>(&photon + 1) - 1);
