@@ -223,7 +223,8 @@ std::vector<Task> find_foreign(const ReferenceInput& input, const MapFinder& fin
     Progress progress("references", input.photons.size());
     parallel_for(tasks.size(), [&](size_t t) {
         Task& task = tasks[t];
-        size_t own = size_t(std::upper_bound(sorted.starts.begin(), sorted.starts.end(), task.begin) - sorted.starts.begin()) - 1;
+        const auto after = std::upper_bound(sorted.starts.begin(), sorted.starts.end(), task.begin);
+        size_t own = size_t(after - sorted.starts.begin()) - 1;
         for (size_t i = task.begin; i < task.end; ++i) {
             while (i >= sorted.starts[own + 1]) ++own;
             if (i + ahead < task.end) prefetch(input.photons[sorted.photons[i + ahead]]);
