@@ -111,7 +111,7 @@ std::string lack_of(vk::PhysicalDevice device, bool presents = false) {
     if (!chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4) return "feature maintenance4";
     if (!queue_family_of(device)) return "a queue for graphics and compute with timestamps";
     if (presents && !has_extension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
-        return std::string("extension ") + VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+        return "extension " VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     return "";
 }
 

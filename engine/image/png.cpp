@@ -15,7 +15,6 @@
 #include <stb/stb_image_write.h>
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
 #include <stb/stb_image.h>
 
 namespace lw {
@@ -66,6 +65,14 @@ Rgb8Image read_png(const std::filesystem::path& path) {
     if (!pixels) throw Error(path.string() + ": not a readable PNG: " + stbi_failure_reason());
     image.rgb.assign(pixels.get(), pixels.get() + 3 * image.pixel_count());
     return image;
+}
+
+std::optional<PictureSize> size_of_encoded(std::span<const uint8_t> bytes) {
+    PictureSize size;
+    if (bytes.size() > size_t(1) << 30 ||
+        !stbi_info_from_memory(bytes.data(), int(bytes.size()), &size.width, &size.height, nullptr))
+        return {};
+    return size;
 }
 
 }  // namespace lw

@@ -1,7 +1,9 @@
-// Display pictures to and from PNG files; the only user of stb_image_write.
+// Display pictures to and from PNG files; the only user of stb.
 // In and out: sRGB codes of 8 bits, three per pixel, row 0 on top. No colour conversion here.
 #pragma once
 #include <filesystem>
+#include <optional>
+#include <span>
 
 #include "image/rgb8_image.h"
 
@@ -16,5 +18,13 @@ std::vector<uint8_t> encode_png(const Rgb8Image& image);
 /// Reads any PNG as 8-bit RGB: alpha is dropped, grey repeated. Throws Error naming the file when it is missing or
 /// damaged.
 Rgb8Image read_png(const std::filesystem::path& path);
+
+struct PictureSize {
+    int width = 0, height = 0;
+};
+
+/// What a PNG, JPEG, BMP or other picture that stb_image knows says of itself, without decoding it; nothing when it is
+/// none of these or larger than 1 GiB.
+std::optional<PictureSize> size_of_encoded(std::span<const uint8_t> bytes);
 
 }  // namespace lw

@@ -5,10 +5,13 @@
 #include <limits>
 #include <span>
 
+#include "image/png.h"
 #include "scene/gltf_accessor.h"
 
 namespace lw {
 namespace {
+
+constexpr uint64_t decoding_bytes = 12;  // per pixel while a picture is decoded: what is unpacked, RGBA and its copy
 
 uint wrap_of(int mode) {
     if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return wrap_clamp;
@@ -117,7 +120,15 @@ std::optional<TextureLoader::Picture> TextureLoader::picture(int index, const st
     }
     const tinygltf::Image& source = file_.model.images[size_t(index)];
     const std::string name = label("image", size_t(index), source.name);
-    const std::optional<tinygltf::Image> decoded = decode(encoded_bytes(file_, source, name));
+    const std::span<const unsigned char> encoded = encoded_bytes(file_, source, name);
+    if (const auto size = size_of_encoded(encoded)) {
+        const uint64_t texels = uint64_t(size->width) * uint64_t(size->height);
+        if (scene_.texels.size() + texels > std::numeric_limits<uint>::max())
+            file_.fail(name + ": the textures have more than 2^32 texels");
+        check_memory(file_, name + ": the textures",
+                     (scene_.texels.size() + texels) * sizeof(scene_.texels[0]) + texels * decoding_bytes);
+    }
+    const std::optional<tinygltf::Image> decoded = decode(encoded);
     if (!decoded) {
         file_.warn(name +
                    (source.bufferView < 0 && source.image.empty() ? ": is missing"
@@ -126,9 +137,6 @@ std::optional<TextureLoader::Picture> TextureLoader::picture(int index, const st
         return {};
     }
     const size_t first = scene_.texels.size(), count = size_t(decoded->width) * size_t(decoded->height);
-    if (first + count > std::numeric_limits<uint>::max())
-        file_.fail(name + ": the textures have more than 2^32 texels");
-    check_memory(file_, name + ": the textures", (first + count) * sizeof(scene_.texels[0]));
     scene_.texels.resize(first + count);
     for (size_t i = 0; i < count; ++i) scene_.texels[first + i] = packed_texel(*decoded, i);
     it->second = Picture{uint(first), uint(decoded->width), uint(decoded->height)};

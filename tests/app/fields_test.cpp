@@ -132,5 +132,29 @@ TEST(Fields, TwoClicksInTheWindowMakeOneAndItsTablesAreSaved) {
     EXPECT_EQ(session.fields.fields.size(), 1u);
 }
 
+TEST(Pins, ThatReadNoLightAreNotSaved) {
+    const Cube cube;
+    const TempFolder folder;
+    Session session(cube.world, folder.path());
+    session.walker.pitch = -0.7f;
+    pin_at(session, *cube.map, {100, 100}, {640, 400});
+    pin_at(session, *cube.map, {320, 200}, {640, 400});
+    ASSERT_EQ(session.metering.pins.size(), 2u);
+    const Measurement read = session.metering.pins[1].value;
+    for (float Measurement::*number : {&Measurement::lux, &Measurement::half_width_lux, &Measurement::luminance})
+        for (float no_light : {NAN, INFINITY, -1.0f}) {
+            session.metering.pins[1].value = read;
+            session.metering.pins[1].value.*number = no_light;
+            save_pins(session);
+            EXPECT_NE(session.notice.text.find("pin 2 reads "), std::string::npos) << session.notice.text;
+            EXPECT_NE(session.notice.text.find(", which is no light"), std::string::npos) << session.notice.text;
+            EXPECT_EQ(folder.names(), std::vector<std::string>{}) << no_light;
+        }
+    session.metering.pins[1].value = read;
+    save_pins(session);
+    const std::string table = read_text(folder / "cube-001.csv");
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3) << session.notice.text << table;
+}
+
 }  // namespace
 }  // namespace lw

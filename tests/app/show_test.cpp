@@ -46,5 +46,31 @@ TEST(Show, WhatTheUserDoesIsOnTheScreenWithinTwoFrames) {
     EXPECT_EQ(show.device().validation_messages(), std::vector<std::string>{});
 }
 
+TEST(Show, APictureThatIsNoLightIsNotSaved) {
+    SKIP_WITHOUT_DISPLAY();
+    const Display display;
+    const World world(LUMENWALK_SOURCE_DIR "/data/cube.gltf", {});
+    PhotonMap map = build_photon_map(world.scene, world.caster, shoot_photons(world.scene, world.caster, {2'000, 1}),
+                                     {2'000, 0, 60, 1});
+    const TempFolder folder;
+    Session session(world, folder.path());
+    Window window("Lumenwalk - no light", {64, 48});
+    Show show(window, session, {"llvmpipe", true, {}}, false);
+    const auto save = [&] {
+        for (int i = 0; i < 4; ++i) show.frame(std::nullopt);
+        session.picture_wish = Wish::save;
+        for (int i = 0; i < 4; ++i) show.frame(std::nullopt);
+        return session.notice.text;
+    };
+    show.set_map(std::make_shared<const PhotonMap>(map));
+    EXPECT_NE(save().find("cube-001.png and cube-001.exr"), std::string::npos) << session.notice.text;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"cube-001.exr", "cube-001.png"}));
+    map.irradiance_scale = 0x1p-127f;  // light is divided by it
+    map.flux_scale = 0x1p-127f;
+    show.set_map(std::make_shared<const PhotonMap>(map));
+    EXPECT_NE(save().find("is not written: "), std::string::npos) << session.notice.text;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"cube-001.exr", "cube-001.png"}));
+}
+
 }  // namespace
 }  // namespace lw

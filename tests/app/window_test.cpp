@@ -126,8 +126,13 @@ TEST(Window, SurvivesAHundredSizesHidingAndFullScreenWithoutLeak) {
         xdotool(words.substr(1));
     };
     resize(0, 30);
-    pause_ms(500);
-    const size_t before = resident_kilobytes(window.process().id());
+    size_t before = 0;  // once all pipelines are made
+    EXPECT_TRUE(wait_until([&] {
+        const size_t last = before;
+        pause_ms(1000);
+        before = resident_kilobytes(window.process().id());
+        return double(before) < 1.01 * double(last);
+    }));
     resize(30, 100);
     xdotool("windowunmap " + window.id() + " sleep 0.3 windowmap " + window.id() + " windowfocus " + window.id());
     window.key("F11");

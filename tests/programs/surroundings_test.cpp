@@ -4,6 +4,8 @@
 
 #include <sys/stat.h>
 
+#include <nlohmann/json.hpp>
+
 #include "programs/command.h"
 #include "programs/lavapipe.h"
 
@@ -49,11 +51,11 @@ class Surroundings : public testing::Test {
 };
 
 TEST_F(Surroundings, StreamsThatAreClosedLeadNowhereAndToNoFileOfTheProgram) {
-    const Outcome outcome = in_shell(*folder, R"(
+    const Outcome outcome = in_shell(*folder, R"sh(
         $BIN/lumenwalk-bake $CUBE -o kept --photons 20000000 <&- >&- 2>&- & bake=$!
-        for wait in $(seq 100); do [ -e /proc/$bake/fd/2 ] && break; sleep 0.05; done
+        for wait in $(seq 100); do [ "$(readlink /proc/$bake/fd/2)" = /dev/null ] && break; sleep 0.05; done
         for stream in 0 1 2; do readlink /proc/$bake/fd/$stream; done
-        kill -9 $bake; wait $bake)");
+        kill -9 $bake; wait $bake)sh");
     EXPECT_EQ(outcome.out, "/dev/null\n/dev/null\n/dev/null\n");
     EXPECT_EQ(in_shell(*folder, "$BIN/lumenwalk-bake $CUBE -o mute --photons 2000 <&- >&- 2>&-").exit_code, 0);
     EXPECT_TRUE(read_text(*folder / "mute") == read_text(*folder / "map"));
@@ -191,6 +193,12 @@ TEST_F(Surroundings, ALimitOfMemoryIsAskedFirstAndToldWithWhatWouldFit) {
     std::filesystem::resize_file(*folder / "huge", bytes.size() + more - size);  // sparse
     refused("$BIN/lumenwalk-measure $CUBE huge --points points.csv", "huge: the map takes 8.0 GB of memory, there are");
     std::filesystem::remove(*folder / "huge");
+    auto scene = nlohmann::json::parse(read_text(cube()));
+    scene["images"] = {{{"uri", "data:image/png;base64,UDUgMTUwMDAgMTUwMDAgMjU1Cg=="}}};  // "P5 15000 15000 255": a PGM
+    scene["textures"] = {{{"source", 0}}};
+    scene["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    write_text(*folder / "textured.gltf", scene.dump());
+    refused("$BIN/lumenwalk-bake textured.gltf -o made", "image 0: the textures take 3.6 GB, there are");
     EXPECT_EQ(in_shell(*folder, "ulimit -v 2000000\n$BIN/lumenwalk-bake $CUBE -o made --photons 2000").exit_code, 0);
 }
 

@@ -157,6 +157,15 @@ TEST(GltfTextures, AnImageWithoutAUsableSourceLeavesItsFactor) {
     }
 }
 
+/// What an image says of its size is enough: nothing is decoded.
+TEST(GltfTextures, AnImageOfMoreTexelsThanCanBeCountedIsRefused) {
+    const std::string header = "P5 100000 100000 255\n";  // a PGM
+    const std::string uri = "data:image/png;base64," + base64({header.begin(), header.end()});
+    EXPECT_NE(error_of([&] { textured(uri).load(); })
+                  .find("image 0 \"picture\": the textures have more than 2^32 texels"),
+              std::string::npos);
+}
+
 TEST(GltfTextures, BilinearSamplesMeetAtTexelCentres) {
     Scene s = textured(png_uri).load();
     s.textures[0].srgb = 0;
