@@ -43,12 +43,10 @@ vec2 area_with(vec2 p, vec2 q, vec2 reach) {
 }
 
 /// Corners in pixels, in front of the near plane. False when there is no pixel centre in the triangle's box, or one side
-/// has all of them beyond it. A triangle across a border of the picture stays: it is clipped, and its corners may be far
-/// away, where rounding exceeds the margin.
+/// has all of those in the box beyond it. A side that ends far outside the picture leaves its triangle a box as large.
 bool may_cover_centre(vec2 p, vec2 q, vec2 r) {
     vec2 size = vec2(frame.width, frame.height), low = min(p, min(q, r)), high = max(p, max(q, r));
     if (any(lessThan(high, vec2(0.0f))) || any(greaterThan(low, size))) return false;
-    if (any(lessThan(low, vec2(0.0f))) || any(greaterThan(high, size))) return true;
     vec2 first = ceil(low - pixel_margin - 0.5f) + 0.5f, last = floor(high + pixel_margin - 0.5f) + 0.5f;
     if (any(lessThan(last, first))) return false;
     vec2 middle = 0.5f * (first + last), reach = 0.5f * (last - first);
