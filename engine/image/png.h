@@ -15,8 +15,8 @@ void write_png(const std::filesystem::path& path, const Rgb8Image& image);
 /// The bytes of a PNG file.
 std::vector<uint8_t> encode_png(const Rgb8Image& image);
 
-/// Reads any PNG as 8-bit RGB: alpha is dropped, grey repeated. Throws Error naming the file when it is missing or
-/// damaged.
+/// Reads any PNG (or other picture that stb_image knows) as 8-bit RGB: alpha is dropped, grey repeated. Throws Error
+/// naming the file when it is missing or damaged.
 Rgb8Image read_png(const std::filesystem::path& path);
 
 struct PictureSize {
