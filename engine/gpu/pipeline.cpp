@@ -6,25 +6,10 @@
 namespace lw {
 namespace {
 
-vk::UniqueShaderModule make_module(const Device& device, SpirV code) {
-    return device.handle().createShaderModuleUnique({{}, code.size_bytes(), code.data()});
+vk::UniqueShaderModule make_module(const Device& device, SpirV code, Constants constants) {
+    const std::vector<uint32_t> specialized = specialize(code, constants);
+    return device.handle().createShaderModuleUnique({{}, specialized.size() * sizeof(uint32_t), specialized.data()});
 }
-
-/// The Vulkan view of a list of constants; keeps the map entries alive.
-class Specialization {
-  public:
-    explicit Specialization(Constants constants) {
-        for (uint32_t i = 0; i < constants.size(); ++i)
-            entries_.emplace_back(i, uint32_t(i * sizeof(uint32_t)), sizeof(uint32_t));
-        constants_ = vk::SpecializationInfo(uint32_t(entries_.size()), entries_.data(), constants.size_bytes(),
-                                            constants.data());
-    }
-    const vk::SpecializationInfo* get() const { return &constants_; }
-
-  private:
-    std::vector<vk::SpecializationMapEntry> entries_;
-    vk::SpecializationInfo constants_;
-};
 
 vk::UniqueDescriptorPool make_pool(const Device& device, std::span<const Binding> bindings) {
     std::map<vk::DescriptorType, uint32_t> counts;
@@ -76,10 +61,8 @@ vk::UniquePipelineLayout make_layout(const Device& device, std::span<const vk::D
 
 vk::UniquePipeline make_compute_pipeline(const Device& device, vk::PipelineLayout layout, SpirV code,
                                          Constants constants) {
-    const vk::UniqueShaderModule shader = make_module(device, code);
-    const Specialization special(constants);
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
-                                                  special.get());
+    const vk::UniqueShaderModule shader = make_module(device, code, constants);
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main");
     return device.handle()
         .createComputePipelineUnique({}, {vk::PipelineCreateFlagBits::eDispatchBase, stage, layout})
         .value;
@@ -87,12 +70,11 @@ vk::UniquePipeline make_compute_pipeline(const Device& device, vk::PipelineLayou
 
 vk::UniquePipeline make_raster_pipeline(const Device& device, vk::PipelineLayout layout, RasterShaders code,
                                         Constants constants, vk::Format color, vk::Format depth) {
-    const vk::UniqueShaderModule vertex = make_module(device, code.vertex);
-    const vk::UniqueShaderModule fragment = make_module(device, code.fragment);
-    const Specialization special(constants);
+    const vk::UniqueShaderModule vertex = make_module(device, code.vertex, constants);
+    const vk::UniqueShaderModule fragment = make_module(device, code.fragment, constants);
     const std::array stages{
-        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", special.get()),
-        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", special.get())};
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"),
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main")};
     const vk::PipelineVertexInputStateCreateInfo no_vertices;
     const vk::PipelineInputAssemblyStateCreateInfo list({}, vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);

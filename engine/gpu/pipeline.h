@@ -3,12 +3,10 @@
 #include <span>
 
 #include "gpu/buffer.h"
+#include "gpu/specialize.h"
 #include "gpu/target.h"
 
 namespace lw {
-
-using SpirV = std::span<const uint32_t>;
-using Constants = std::span<const uint32_t>;
 
 /// What a shader finds at one binding.
 struct Binding {

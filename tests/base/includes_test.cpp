@@ -39,6 +39,7 @@ const std::map<std::string, std::vector<std::string>> fences = {
     {"CLI/", {}},
     {"GLFW/", {}},
     {"imgui", {}},
+    {"spirv-tools/", {"gpu/specialize."}},
     {"nlohmann/", {"scene/ambiance.", "scene/json_file.", "scene/recorded_path.", "scene/gltf_file."}},
 };
 
