@@ -72,7 +72,7 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
     if (follows) wanted.push_back({&followed_photons_, stage_photons, true});
     if (follows && has_rays) wanted.push_back({&followed_rays_, stage_rays, true});
     const SpirV code = resident.queries_rays() ? SpirV(gather_queries_comp) : SpirV(gather_comp);
-    parallel_for(wanted.size(), [&](size_t i) {  // a second each where the driver is slow
+    parallel_for(wanted.size(), [&](size_t i) {  // a tenth of a second each where the driver is slow
         ShaderConstants own = constants;
         own[constant_stage] = wanted[i].stage;
         own[constant_of_followed] = wanted[i].of_followed;
