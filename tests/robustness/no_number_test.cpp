@@ -2,6 +2,7 @@
 // which numbers are hard to find.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,6 +11,7 @@
 #include "gather/renderer.h"
 #include "image/light_check.h"
 #include "maps/build.h"
+#include "maps/estimate.h"
 #include "programs/command.h"
 #include "programs/lavapipe.h"
 #include "robustness/room.h"
@@ -94,6 +96,28 @@ TEST(NoNumber, IsInNoPictureOfTheReferenceWhateverTheCamera) {
 }
 
 /// Of a map without any photon and one of photons in one point.
+TEST(NoNumber, IsReadWhereAllPhotonsLieInOnePoint) {
+    Baked baked(plain_room(), 1'000);
+    const SurfaceReader surface(baked.scene);
+    const std::vector<vec3> weights = light_weights(baked.scene, {});
+    const std::vector<Photon> all = baked.photons.records;
+    for (const uint triangle : {0u, 1u, 2u, 3u}) {  // of some the point is read at a distance of exactly 0
+        const auto photon = std::find_if(all.begin(), all.end(), [&](const Photon& p) { return p.triangle == triangle; });
+        ASSERT_NE(photon, all.end());
+        baked.photons.records.assign(500, *photon);
+        for (Photon& p : baked.photons.records) p.position = surface.corner_position(triangle, 0);
+        const PhotonMap map = build_photon_map(baked.scene, baked.caster, baked.photons, {501, 0.1f, 60, 1});
+        for (const uint mode : {gather_mode_exact, gather_mode_smooth, gather_mode_cached}) {
+            const PhotonEstimator estimator(baked.scene, map, weights, {mode, 50, 0});
+            const Gathered light = estimator.estimate(triangle, vec2(0), photon->from);
+            EXPECT_GT(light.irradiance.y, 0) << "triangle " << triangle << ", mode " << mode;
+            EXPECT_TRUE(std::isfinite(light.irradiance.y)) << "triangle " << triangle << ", mode " << mode;
+            EXPECT_TRUE(std::isfinite(light.radiance.y)) << "triangle " << triangle << ", mode " << mode;
+            EXPECT_TRUE(light.radius > 0 || mode == gather_mode_cached) << "triangle " << triangle << ", mode " << mode;
+        }
+    }
+}
+
 TEST(NoNumber, IsInNoPictureOfAMapOfHardlyAPhoton) {
     SKIP_WITHOUT_LAVAPIPE();
     const Device device({"llvmpipe", true});
