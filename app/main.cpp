@@ -7,6 +7,7 @@
 #include "app/walkthrough.h"
 #include "base/program.h"
 #include "file/map_file.h"
+#include "image/picture_size.h"
 
 namespace {
 
@@ -63,14 +64,6 @@ void add_options(CLI::App& app, Options& o) {
                  "run with the Vulkan validation layer; any message is an error");
 }
 
-/// Whether the text is WIDTHxHEIGHT with both from 16 to 16384, or empty.
-bool parse_size(const std::string& text, vk::Extent2D& size) {
-    char end = 0;
-    if (text.empty()) return true;
-    return std::sscanf(text.c_str(), "%ux%u%c", &size.width, &size.height, &end) == 2 && size.width >= 16 &&
-           size.height >= 16 && size.width <= 16384 && size.height <= 16384;
-}
-
 void run(Options& o) {
     lw::WalkthroughSettings& walk = o.walk;
     walk.scene = o.scene;
@@ -101,8 +94,12 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
         options.walk.device.rays = lw::rays_named(options.rays);
-        if (!parse_size(options.size, options.walk.size))
-            throw CLI::ValidationError("--size: must be WxH in pixels, from 16x16 to 16384x16384");
+        if (!options.size.empty()) {
+            const lw::WantedSize size = lw::parse_picture_size(options.size, 16, 16384);
+            if (size.width == 0)
+                throw CLI::ValidationError("--size: must be WxH in pixels, from 16x16 to 16384x16384");
+            options.walk.size = vk::Extent2D(size.width, size.height);
+        }
         if (app.count("--device-memory") > 0 && !(options.device_memory_gb >= 0.001 && options.device_memory_gb <= 1e6))
             throw CLI::ValidationError("--device-memory: give a number from 0.001 to 1e6");
         if (options.play.exposure_ev && !(std::abs(*options.play.exposure_ev) <= 100))

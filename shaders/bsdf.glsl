@@ -195,18 +195,19 @@ vec3 passed_by(uint triangle, vec2 barycentrics, vec3 direction) LW_MEMBER {
     return mix(vec3(1.0f), passed, opacity_at(triangle, s));
 }
 
-/// Directional albedo: the part of light from all sides alike that leaves towards the viewer, at cosine `nv` to the
-/// normal. The GGX part is the fit of Karis 2014, "Physically based shading on mobile".
-vec3 albedo_towards(Surface s, float nv) LW_MEMBER {
-    if ((s.flags & material_unlit) != 0u) return vec3(0.0f);
-    vec4 r = s.roughness * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
-    float a004 = min(r.x * r.x, pow(2.0f, -9.28f * nv)) * r.x + r.y;
-    float scale = -1.04f * a004 + r.z;
-    float offset = 1.04f * a004 + r.w;
-    vec3 dielectric = dielectric_f0(s) * scale + vec3(s.specular * offset);
-    vec3 metal = s.base_color * scale + vec3(offset);
-    float diffuse = (1.0f - max(dielectric.x, max(dielectric.y, dielectric.z))) * (1.0f - s.transmission);
-    return (s.base_color * diffuse + dielectric) * (1.0f - s.metallic) + metal * s.metallic;
+/// Directional albedo of the GGX lobe, the part of light from all sides alike that leaves at cosine `nv` to the normal, as
+/// F0 times x and Schlick's rise to 1 times y. Polynomials fitted to integrals of ggx_d_v: x + y to 0.03, to 0.02 of
+/// surfaces rougher than 0.7; y to 0.04 and 0.005.
+vec2 lobe_albedo(float roughness, float nv) LW_MEMBER {
+    float r = roughness;
+    float lost = r * ((0.7f + nv * (-3.404f + nv * 3.086f)) +
+                      r * ((-1.479f + nv * (12.805f - nv * 14.306f)) +
+                           r * ((1.026f + nv * (-12.407f + nv * 18.13f)) + r * (-0.092f + nv * (4.066f - nv * 7.454f)))));
+    float rise = (1.163f - 0.75f * nv) +
+                 r * ((-2.95f + 17.54f * nv) +
+                      r * ((1.296f - 51.378f * nv) + r * ((2.105f + 54.343f * nv) + r * (-1.581f - 19.724f * nv))));
+    rise = clamp(rise * schlick_weight(nv), 0.0f, 1.0f);
+    return vec2(clamp(1.0f - lost - rise, 0.0f, 1.0f), rise);
 }
 
 /// The part of light from all sides alike that the diffuse lobe alone sends to the viewer, at cosine `nv` to the normal: what
@@ -218,4 +219,13 @@ vec3 diffuse_albedo_towards(Surface s, float nv) LW_MEMBER {
     float mean_weight = 0.0160f * m + 0.0120f * m * m;
     float passed = passed_by_fresnel(f0 + (vec3(s.specular) - f0) * mean_weight);
     return s.base_color * (passed * (1.0f - s.metallic) * (1.0f - s.transmission));
+}
+
+/// Directional albedo: the part of light from all sides alike that both lobes send to the viewer, at cosine `nv` to the normal.
+vec3 albedo_towards(Surface s, float nv) LW_MEMBER {
+    if ((s.flags & material_unlit) != 0u) return vec3(0.0f);
+    vec2 lobe = lobe_albedo(s.roughness, nv);
+    vec3 dielectric = dielectric_f0(s) * lobe.x + vec3(s.specular * lobe.y);
+    vec3 metal = s.base_color * lobe.x + vec3(lobe.y);
+    return diffuse_albedo_towards(s, nv) + dielectric * (1.0f - s.metallic) + metal * s.metallic;
 }

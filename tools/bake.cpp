@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/one_line.h"
 #include "base/parallel.h"
 #include "base/program.h"
 #include "base/replaced_file.h"
@@ -98,7 +99,7 @@ void bake(const Options& options) {
     PhaseClock clock;
     const lw::Scene scene = lw::load_scene(options.scene, options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-    lw::check_can_create(output, {options.scene});
+    lw::check_can_create(output, scene.files);
     lw::check_bake_fits(scene, settings,
                         options.memory_gb > 0 ? uint64_t(options.memory_gb * 1e9) : lw::available_memory());
     clock.finish("load");
@@ -113,7 +114,7 @@ void bake(const Options& options) {
     clock.finish("write");
     print_lights(scene, photons);
     print_map(map, scene.triangles.size());
-    std::printf("wrote %s\n", output.string().c_str());
+    std::printf("wrote %s\n", lw::one_line(output.string()).c_str());
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ void print_json(const lw::Comparison& comparison) {
 void run(const Options& options) {
     lw::Image picture = lw::read_exr(options.picture);
     lw::Image reference = lw::read_exr(options.reference);
-    if (!options.difference.empty()) lw::check_can_create(options.difference, {options.picture, options.reference});
+    const std::filesystem::path inputs[] = {options.picture, options.reference};
+    if (!options.difference.empty()) lw::check_can_create(options.difference, inputs);
     try {
         lw::Comparison comparison = lw::compare(picture, reference, options.channel);
         options.json ? print_json(comparison) : print_text(comparison);

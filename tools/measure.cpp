@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/one_line.h"
 #include "base/parallel.h"
 #include "base/program.h"
 #include "base/progress.h"
@@ -88,6 +89,20 @@ void write_text(const std::string& path, const std::string& text) {
     file.commit();
 }
 
+/// Refuses outputs that would take the place of an input or of each other. A map may be replaced by a better one.
+void check_outputs(const Options& o, const lw::Scene& scene) {
+    std::vector<std::filesystem::path> inputs = scene.files;
+    inputs.insert(inputs.end(), o.points.begin(), o.points.end());
+    if (!o.reflections.empty()) inputs.emplace_back(o.reflections);  // or the name of a camera
+    if (!o.saved_map.empty()) lw::check_can_create(o.saved_map, inputs);
+    inputs.push_back(o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map));
+    const std::filesystem::path tables[] = {o.csv, o.fields_csv, o.report, o.reflections_csv};
+    for (const std::filesystem::path& table : tables)
+        if (!table.empty()) lw::check_can_create(table, inputs);
+    const std::filesystem::path all[] = {o.csv, o.fields_csv, o.report, o.reflections_csv, o.saved_map};
+    lw::check_different(all);
+}
+
 /// Before anything is printed, which whoever reads it may end (| head).
 void write_files(const Options& o, const lw::Survey& survey, const lw::Scene& scene, const lw::RayCaster& caster) {
     if (!o.saved_map.empty()) lw::save_photon_map(o.saved_map, survey.map);
@@ -108,14 +123,14 @@ void tell_photons(const Options& o, const lw::Survey& survey) {
 
 void print_fields(const Options& o, const lw::Survey& survey) {
     for (const std::string& text : o.photometry)
-        std::printf("%s: %s\n", text.c_str(),
+        std::printf("%s: %s\n", lw::one_line(text).c_str(),
                     lw::summary_of(lw::read_photometry(text.substr(text.find('=') + 1))).c_str());
     std::printf("%s", lw::fields_as_text(survey).c_str());
     std::printf("+- half the 90 %% interval; maintenance factor %g\n", double(survey.maintenance));
     if (o.reference_paths > 0) std::printf("%s", lw::agreement_as_text(survey).c_str());
     tell_photons(o, survey);
     for (const std::string& path : {o.saved_map, o.csv, o.fields_csv, o.report})
-        if (!path.empty()) std::printf("wrote %s\n", path.c_str());
+        if (!path.empty()) std::printf("wrote %s\n", lw::one_line(path).c_str());
 }
 
 /// The cameras in which reflections are looked for: one of the scene, or those along a recorded walk.
@@ -161,7 +176,7 @@ void report_reflections(const Options& o, const lw::Scene& scene, const lw::RayC
         lw::write_reflections(o.reflections_csv, scene, views[0].report);
     else
         lw::write_reflections(o.reflections_csv, scene, views);
-    std::printf("wrote %s\n", o.reflections_csv.c_str());
+    std::printf("wrote %s\n", lw::one_line(o.reflections_csv).c_str());
 }
 
 void measure(Options& o) {
@@ -171,8 +186,7 @@ void measure(Options& o) {
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::vector<lw::SensorSet> sets = sets_of(o, scene);
     std::vector<lw::PowerSetting> ambiances = ambiances_of(o, scene);
-    for (const std::string& path : {o.csv, o.fields_csv, o.report, o.reflections_csv, o.saved_map})
-        if (!path.empty()) lw::check_can_create(path, {o.scene});
+    check_outputs(o, scene);
     for (const std::string& camera : o.cameras) lw::find_camera(scene, camera);
     const lw::RayCaster caster(scene);
     if (!o.reflections.empty()) report_reflections(o, scene, caster);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/one_line.h"
 #include "base/parallel.h"
 #include "base/program.h"
 #include "base/replaced_file.h"
@@ -12,6 +13,7 @@
 #include "image/light_check.h"
 #include "number_option.h"
 #include "scene/ambiance.h"
+#include "image/picture_size.h"
 #include "scene/camera.h"
 #include "scene/profile.h"
 #include "trace/reference.h"
@@ -25,18 +27,12 @@ struct Options {
     lw::ReferenceSettings settings;
 };
 
-/// Whether the text is WIDTHxHEIGHT with both from 1 to 16384.
-bool parse_size(const std::string& text, int& width, int& height) {
-    char end = 0;
-    return std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) == 2 && width > 0 && height > 0 &&
-           width <= 16384 && height <= 16384;
-}
+lw::WantedSize size_of(const Options& options) { return lw::parse_picture_size(options.size, 1, 16384); }
 
 /// What is wrong with the command line, or "".
 std::string misuse_of(const Options& options) {
-    int width = 0, height = 0;
     if (std::filesystem::path(options.output).extension() != ".exr") return "--output: must end in .exr";
-    if (!parse_size(options.size, width, height)) return "--size: must be WxH in pixels, at most 16384 each";
+    if (size_of(options).width == 0) return "--size: must be WxH in pixels, at most 16384 each";
     for (const std::string& power : options.powers)
         if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
     return "";
@@ -44,12 +40,13 @@ std::string misuse_of(const Options& options) {
 
 void render(Options& options) {
     const lw::ThreadLimit limit(options.threads);
-    parse_size(options.size, options.settings.width, options.settings.height);
+    const lw::WantedSize size = size_of(options);
+    options.settings.width = int(size.width), options.settings.height = int(size.height);
     if (options.settings.samples == 0)
         options.settings.samples = options.settings.seconds > 0 || options.settings.error > 0 ? 1u << 20 : 256;
     const lw::Scene scene = lw::load_scene(options.scene, options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-    lw::check_can_create(options.output, {options.scene});
+    lw::check_can_create(options.output, scene.files);
     lw::check_reference_fits(options.settings, lw::available_memory());
     const lw::RayCaster caster(scene);
     const std::vector<lw::vec3> weights =
@@ -58,7 +55,7 @@ void render(Options& options) {
         lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
     lw::check_is_light(reference.image);
     lw::write_exr(options.output, reference.image);
-    std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n", options.output.c_str(),
+    std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n", lw::one_line(options.output).c_str(),
                 (unsigned long long)reference.samples, reference.relative_error);
     if (reference.caustic_radius > 0)
         std::printf("caustics are traced from the lamps and blurred over %.2g m\n",

@@ -5,12 +5,14 @@
 #include <iostream>
 
 #include "base/error.h"
+#include "base/one_line.h"
 #include "base/program.h"
 #include "base/replaced_file.h"
 #include "file/map_file.h"
 #include "gather/renderer.h"
 #include "image/exr.h"
 #include "image/light_check.h"
+#include "image/picture_size.h"
 #include "image/png.h"
 #include "number_option.h"
 #include "scene/ambiance.h"
@@ -84,20 +86,12 @@ void add_options(CLI::App& app, Options& o) {
     app.add_flag("--list-devices", o.list_devices, "print the Vulkan devices");
 }
 
-/// Whether the text is WxH with both from 1 to 65536.
-bool parse_size(const std::string& text, unsigned& width, unsigned& height) {
-    int used = 0;
-    return text.size() < 16 && std::sscanf(text.c_str(), "%5ux%5u%n", &width, &height, &used) == 2 &&
-           size_t(used) == text.size() && text.find_first_of("-+ ") == std::string::npos && width > 0 && height > 0;
-}
-
 /// What is wrong with the command line, or "".
 std::string misuse_of(const Options& o) {
-    unsigned width = 0, height = 0;
     const std::string extension = std::filesystem::path(o.output).extension().string();
     if (o.scene.empty() && (!o.lists() || o.list_cameras || o.list_lights)) return "a scene is required";
     if (!o.lists() && extension != ".exr" && extension != ".png") return "--output: must end in .exr or .png";
-    if (!o.size.empty() && !parse_size(o.size, width, height)) return "--size: must be WxH in pixels, as 1280x720";
+    if (!o.size.empty() && lw::parse_picture_size(o.size, 1, 65536).width == 0) return "--size: must be WxH in pixels, as 1280x720";
     for (const std::string& power : o.powers)
         if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
     return "";
@@ -119,12 +113,12 @@ void print_lists(const Options& o) {
 }
 
 vk::Extent2D picture_size(const Options& o, const lw::Camera& camera) {
-    unsigned width = 1280, height = 720;
+    lw::WantedSize size{1280, 720};
     if (!o.size.empty())
-        parse_size(o.size, width, height);
+        size = lw::parse_picture_size(o.size, 1, 65536);
     else if (camera.aspect > 0)
-        height = std::max(1u, unsigned(float(width) / camera.aspect + 0.5f));
-    return {width, height};
+        size.height = std::max(1u, unsigned(float(size.width) / camera.aspect + 0.5f));
+    return {size.width, size.height};
 }
 
 void write_picture(const std::filesystem::path& path, const lw::Rendering& picture) {
@@ -147,7 +141,9 @@ void take_screenshot(const Options& o) {
     const std::vector<lw::vec3> factors = lw::chosen_factors(scene, o.ambiance, o.powers);
     const std::filesystem::path map_path = o.map.empty() ? lw::default_map_path(o.scene) : std::filesystem::path(o.map);
     const lw::PhotonMap map = lw::load_photon_map(map_path, scene);
-    lw::check_can_create(o.output, {o.scene, map_path});
+    std::vector<std::filesystem::path> inputs = scene.files;
+    inputs.push_back(map_path);
+    lw::check_can_create(o.output, inputs);
     const lw::Device device({.name = o.device,
                              .validation = o.validation,
                              .memory_bytes = vk::DeviceSize(o.device_memory_gb * 1e9),
@@ -162,7 +158,7 @@ void take_screenshot(const Options& o) {
     refuse_validation_messages(device);
     lw::check_is_light(picture.image);
     write_picture(o.output, picture);
-    std::printf("%s: %ux%u on %s, %.0f MiB on the device, EV %.2f\n", o.output.c_str(), size.width, size.height,
+    std::printf("%s: %ux%u on %s, %.0f MiB on the device, EV %.2f\n", lw::one_line(o.output).c_str(), size.width, size.height,
                 device.name().c_str(), double(resident.bytes()) / 1048576.0, double(picture.exposure_ev));
     std::printf("visibility %.2f ms, gather %.2f ms, tone mapping %.2f ms (median of %u)\n",
                 picture.times.visibility_ms, picture.times.gather_ms, picture.times.tonemap_ms, o.frames);

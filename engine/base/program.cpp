@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -36,6 +37,7 @@ bool has_printed() { return std::cout.flush().good() && std::fflush(stdout) == 0
 
 int run_program(const char* program, const std::function<void()>& work) {
     open_closed_streams();
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
     watch_for_interrupt();
     try {
         work();

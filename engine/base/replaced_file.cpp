@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -81,13 +82,23 @@ void ReplacedFile::commit() {
     keep_on_interrupt(partial_);
 }
 
-void check_can_create(const std::filesystem::path& path, std::initializer_list<std::filesystem::path> inputs) {
+void check_can_create(const std::filesystem::path& path, std::span<const std::filesystem::path> inputs) {
     for (const std::filesystem::path& input : inputs) {
-        std::error_code ignored;
-        if (std::filesystem::equivalent(path, input, ignored))
-            throw Error(path.string() + ": is an input of this program; choose another place with -o");
+        std::error_code ignored;  // of inputs that are not there, and might be
+        if (std::filesystem::equivalent(path, input, ignored) ||
+            std::filesystem::weakly_canonical(path, ignored) == std::filesystem::weakly_canonical(input, ignored))
+            throw Error(path.string() + ": is an input of this program; choose another name for what it writes");
     }
     const ReplacedFile unused(path);
+}
+
+void check_different(std::span<const std::filesystem::path> outputs) {
+    std::set<std::filesystem::path> seen;
+    for (const std::filesystem::path& output : outputs) {
+        std::error_code ignored;
+        if (!output.empty() && !seen.insert(std::filesystem::weakly_canonical(output, ignored)).second)
+            throw Error(output.string() + ": would be written twice; give each output a name of its own");
+    }
 }
 
 }  // namespace lw

@@ -3,7 +3,7 @@
 #pragma once
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
+#include <span>
 
 namespace lw {
 
@@ -35,6 +35,9 @@ class ReplacedFile {
 
 /// Throws what ReplacedFile would throw for `path`, before long work whose result shall lie there, and when `path` is
 /// one of the `inputs`, which the work would destroy. Leaves no trace.
-void check_can_create(const std::filesystem::path& path, std::initializer_list<std::filesystem::path> inputs = {});
+void check_can_create(const std::filesystem::path& path, std::span<const std::filesystem::path> inputs = {});
+
+/// Throws when two of the outputs of a program, those that are not empty, are one file.
+void check_different(std::span<const std::filesystem::path> outputs);
 
 }  // namespace lw

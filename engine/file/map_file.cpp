@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/memory.h"
 #include "base/replaced_file.h"
 #include "file/checksum.h"
@@ -247,7 +248,7 @@ void save_photon_map(const std::filesystem::path& path, const PhotonMap& map) {
 PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene) {
     std::error_code failure;
     const uint64_t file_size = std::filesystem::file_size(path, failure);
-    std::ifstream in(path, std::ios::binary);
+    std::ifstream in = open_input(path);
     if (failure || !in) throw Error(path.string() + ": no photon map here; make one with lumenwalk-bake");
     const Header header = read_header(in, path, file_size);
     if (header.scene_hash != scene.content_hash)

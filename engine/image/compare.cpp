@@ -94,11 +94,12 @@ double blurred_p95(const Pair& pair) {
     int width = pair.reference.colour.width, height = pair.reference.colour.height;
     std::vector<float> a = blur_8x8(pair.picture.values, width, height);
     std::vector<float> r = blur_8x8(pair.reference.values, width, height);
-    float least = float(0.01 * pair.mean);
-    for (size_t i = 0; i < a.size(); ++i) a[i] = std::abs(a[i] - r[i]) / std::max(r[i], least);
-    auto rank = a.begin() + std::ptrdiff_t(double(a.size() - 1) * 0.95);
-    std::nth_element(a.begin(), rank, a.end());
-    return double(*rank);
+    std::vector<double> errors(a.size());  // ratios of floats may be beyond them
+    for (size_t i = 0; i < a.size(); ++i)
+        errors[i] = std::abs(double(a[i]) - double(r[i])) / std::max(double(r[i]), 0.01 * pair.mean);
+    auto rank = errors.begin() + std::ptrdiff_t(double(errors.size() - 1) * 0.95);
+    std::nth_element(errors.begin(), rank, errors.end());
+    return *rank;
 }
 
 std::vector<vec3> display_pixels(const Image& colour, float ev) {

@@ -13,6 +13,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/one_line.h"
 #include "base/replaced_file.h"
 
@@ -116,7 +117,7 @@ void write_exr(const std::filesystem::path& path, const Image& image) {
 Image read_exr(const std::filesystem::path& path) {
     std::error_code failure;
     uint64_t file_size = std::filesystem::file_size(path, failure);
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream = open_input(path);
     if (failure || !stream) throw Error(path.string() + ": cannot be opened");
     try {
         return read_channels(stream, path.string(), file_size);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/replaced_file.h"
 
 // Static: libtinygltf.so exports the same symbols.
@@ -31,7 +32,7 @@ void append_bytes(void* to, void* bytes, int size) {
 }
 
 std::vector<uint8_t> read_bytes(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream = open_input(path);
     if (!stream) throw Error(path.string() + ": cannot be opened");
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }

@@ -12,7 +12,11 @@ constexpr float least_roughness_of_matte = 0.8f;
 /// True when direct light of small lamps looks the same whether it comes from the lamp or from all sides.
 bool is_matte(const Material& m) {
     const bool textured = m.metallic_roughness_texture.texture >= 0 || m.normal_texture.texture >= 0;
-    return !textured && m.metallic < 0.001f && (m.roughness >= least_roughness_of_matte || m.specular <= 0);
+    const auto largest = [](vec3 v) { return std::max({v.x, v.y, v.z}); };
+    const float r = (m.ior - 1) / (m.ior + 1), reflectance = r * r * largest(m.specular_color) * m.specular;
+    const float most_reflectance = std::min(0.08f, 0.4f * largest(m.base_color));  // at normal incidence
+    const bool is_dull = m.roughness >= least_roughness_of_matte && reflectance <= most_reflectance;
+    return !textured && m.metallic < 0.001f && (is_dull || m.specular <= 0);
 }
 
 }  // namespace

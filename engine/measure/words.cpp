@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 #include "base/error.h"
+#include "base/input_file.h"
 
 namespace lw {
 
 std::vector<std::string> read_lines(const std::filesystem::path& path) {
     std::error_code failure;
     const uintmax_t bytes = std::filesystem::file_size(path, failure);
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream = open_input(path);
     if (failure || !stream) throw Error(path.string() + ": cannot be opened");
     if (bytes > 64'000'000) throw Error(path.string() + ": larger than 64 MB");
     std::vector<std::string> lines;

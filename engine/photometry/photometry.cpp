@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
 #include "base/error.h"
+#include "base/input_file.h"
 
 namespace lw {
 namespace {
@@ -131,7 +131,7 @@ double tilt_factor(const Photometry& photometry, double angle) {
 }
 
 Photometry read_photometry(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream = open_input(path);
     std::error_code failure;
     const uintmax_t bytes = std::filesystem::file_size(path, failure);
     if (!stream || failure) throw Error(path.string() + ": cannot be opened");

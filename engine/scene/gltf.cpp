@@ -16,6 +16,7 @@ Scene load_gltf(const std::filesystem::path& path) try {
     GltfFile file = open_gltf(path);
     Scene scene;
     scene.path = path;
+    scene.files = std::move(file.read);
     const std::vector<PlacedNode> nodes = place_nodes(file);
     load_materials(file, scene);
     const std::vector<size_t> object_nodes = load_geometry(file, nodes, scene);

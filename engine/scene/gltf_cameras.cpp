@@ -23,7 +23,7 @@ mat3 rotation_of(const glm::dmat4& world) {
 }
 
 void set_perspective(const tinygltf::PerspectiveCamera& source, Camera& camera) {
-    if (source.yfov > 0 && source.yfov < 3.1) camera.yfov = float(source.yfov);
+    if (source.yfov > 0) camera.yfov = float(std::clamp(source.yfov, 1e-3, 3.1));
     if (source.aspectRatio > 0) camera.aspect = float(std::clamp(source.aspectRatio, 1e-3, 1e3));
     if (source.znear > 0) camera.near = float(std::clamp(source.znear, 1e-6, 10.0));
 }

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/input_file.h"
 #include "base/memory.h"
 #include "scene/gltf_extensions.h"
+#include "scene/gltf_ranges.h"
 
 namespace lw {
 namespace {
@@ -16,8 +17,8 @@ using Json = nlohmann::json;
 constexpr size_t glb_header_bytes = 20;  // header and the head of the first chunk
 
 std::vector<unsigned char> read_bytes(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary | std::ios::ate);
-    const std::streamoff size = stream && std::filesystem::is_regular_file(path) ? std::streamoff(stream.tellg()) : -1;
+    std::ifstream stream = open_input(path, std::ios::ate);
+    const std::streamoff size = stream ? std::streamoff(stream.tellg()) : -1;
     if (size < 0) throw Error(path.string() + ": cannot be opened");
     if (size >= std::streamoff(std::numeric_limits<uint32_t>::max()))
         throw Error(path.string() + ": larger than 4 GiB, which tinygltf cannot read; split it into .gltf and .bin");
@@ -132,6 +133,9 @@ void check_before_parsing(GltfFile& file, const Json& root) {
         if (!reads_extension(extension)) file.fail("requires the extension " + extension + ", which is not supported");
     for (const std::string& extension : strings_of(root, "extensionsUsed"))
         if (changes_look(extension)) file.warn("the extension " + extension + " is ignored; the look may differ");
+    if (has_version && asset->contains("minVersion") && (*asset)["minVersion"] != "2.0")
+        file.fail("needs a reader of glTF " + (*asset)["minVersion"].dump() + ", not 2.0");
+    check_ranges(file, root);
     check_uris(file, root, "buffers");
     check_uris(file, root, "images");
 }
@@ -185,17 +189,24 @@ bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*,
     return true;
 }
 
-bool exists_in_folder(const std::string& path, void* folder) {
+/// What tinygltf reads beside the file itself.
+struct ExternalFiles {
+    std::string folder;
+    std::vector<std::filesystem::path> read;
+};
+
+bool exists_in_folder(const std::string& path, void* files) {
     // tinygltf also searches the working directory; only files beside the scene are meant.
-    return path.starts_with(*static_cast<const std::string*>(folder)) && std::filesystem::is_regular_file(path);
+    return path.starts_with(static_cast<const ExternalFiles*>(files)->folder) && std::filesystem::is_regular_file(path);
 }
 
 /// tinygltf's own version hands the name to wordexp(3), which runs `$(...)`.
 std::string same_path(const std::string& path, void*) { return path; }
 
-bool read_external(std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void*) {
+bool read_external(std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void* files) {
     try {
         *bytes = read_bytes(path);
+        static_cast<ExternalFiles*>(files)->read.push_back(path);
         return true;
     } catch (const std::exception& e) {
         *error += e.what();
@@ -234,23 +245,25 @@ GltfFile open_gltf(const std::filesystem::path& path) {
     check_before_parsing(file, root);
     if (replace_unreadable_images(root)) bytes = with_json(bytes, root.dump());
 
-    std::string folder = std::filesystem::absolute(path).parent_path().string(), error, unused;
+    ExternalFiles files{std::filesystem::absolute(path).parent_path().string(), {path}};
+    std::string error, unused;
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(keep_encoded, nullptr);
-    parser.SetFsCallbacks({exists_in_folder, same_path, read_external, tinygltf::WriteWholeFile, &folder});
+    parser.SetFsCallbacks({exists_in_folder, same_path, read_external, tinygltf::WriteWholeFile, &files});
     bool parsed = false;
     try {
         const auto size = unsigned(bytes.size());
         parsed = is_binary(bytes)
-                     ? parser.LoadBinaryFromMemory(&file.model, &error, &unused, bytes.data(), size, folder)
+                     ? parser.LoadBinaryFromMemory(&file.model, &error, &unused, bytes.data(), size, files.folder)
                      : parser.LoadASCIIFromString(&file.model, &error, &unused,
-                                                  reinterpret_cast<const char*>(bytes.data()), size, folder);
+                                                  reinterpret_cast<const char*>(bytes.data()), size, files.folder);
     } catch (const std::exception& e) {
         error += e.what();
     }
     if (!parsed) file.fail("malformed glTF: " + shortened(error.empty() ? "unknown reason" : error));
     tinygltf::Model& m = file.model;
     clean_names(m.nodes, m.meshes, m.materials, m.cameras, m.lights, m.images);
+    file.read = std::move(files.read);
     return file;
 }
 

@@ -22,6 +22,7 @@ struct GltfFile {
     std::string name;  // file name without folder, the first word of every message
     tinygltf::Model model;
     std::vector<std::string> warnings;
+    std::vector<std::filesystem::path> read;  // this file, its buffers and images
 
     /// Throws Error("name: what").
     [[noreturn]] void fail(const std::string& what) const { throw Error(one_line(name + ": " + what)); }

@@ -13,7 +13,7 @@ std::string text_of(const tinygltf::Value& object, const char* key) {
     return object.Has(key) && object.Get(key).IsString() ? object.Get(key).Get<std::string>() : "";
 }
 
-Photometry photometry_of(const GltfFile& file, int index, const Scene& scene) {
+Photometry photometry_of(const GltfFile& file, int index, Scene& scene) {
     const std::string where = "light profile " + std::to_string(index);
     const auto root = file.model.extensions.find("EXT_lights_ies");
     if (root == file.model.extensions.end() || !root->second.Has("lights") || !root->second.Get("lights").IsArray() ||
@@ -26,7 +26,10 @@ Photometry photometry_of(const GltfFile& file, int index, const Scene& scene) {
     }
     const std::string uri = text_of(profile, "uri");
     if (uri.empty()) file.fail(where + ": has neither uri nor bufferView");
-    if (!uri.starts_with("data:")) return read_photometry(scene.path.parent_path() / decoded_uri(file, uri));
+    if (!uri.starts_with("data:")) {
+        scene.files.push_back(scene.path.parent_path() / decoded_uri(file, uri));
+        return read_photometry(scene.files.back());
+    }
     const size_t comma = uri.find(";base64,");
     std::vector<unsigned char> bytes;
     std::string mime;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/replaced_file.h"
 
 namespace lw {
@@ -20,8 +20,8 @@ using Json = nlohmann::json;
 nlohmann::json read_json(const std::filesystem::path& path) {
     constexpr uintmax_t most_bytes = uintmax_t(64) << 20;
     std::error_code failure;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream || !std::filesystem::is_regular_file(path, failure)) throw Error(path.string() + ": cannot be opened");
+    std::ifstream stream = open_input(path);
+    if (!stream) throw Error(path.string() + ": cannot be opened");
     if (std::filesystem::file_size(path, failure) > most_bytes) throw Error(path.string() + ": larger than 64 MiB");
     try {
         return nlohmann::json::parse(stream);

@@ -89,7 +89,9 @@ Scene with_photometry(Scene scene, const std::vector<std::string>& texts) {
         Light& light = scene.lights[size_t(found - scene.light_names.begin())];
         if (light.type == light_mesh || light.type == light_directional)
             throw Error("--ies " + text + ": only a point or spot lamp can have a photometric file");
-        attach_photometry(read_photometry(text.substr(equals + 1)), light, scene);
+        const std::filesystem::path file = text.substr(equals + 1);
+        attach_photometry(read_photometry(file), light, scene);
+        scene.files.push_back(file);
     }
     if (!texts.empty()) scene.content_hash = content_hash(scene);
     return scene;
@@ -110,7 +112,9 @@ std::vector<std::string> photometry_texts(const LampBook& book, const std::files
 
 Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry) {
     const LampBook book = load_lamp_book(default_ambiances_path(path));
-    return with_photometry(load_gltf(path), photometry_texts(book, path, photometry));
+    Scene scene = with_photometry(load_gltf(path), photometry_texts(book, path, photometry));
+    scene.files.push_back(default_ambiances_path(path));
+    return scene;
 }
 
 }  // namespace lw

@@ -51,6 +51,7 @@ struct Scene {
     std::array<vec3, 2> bounds{vec3(0), vec3(0)};  // min, max of positions
     uint64_t content_hash = 0;          // geometry, materials, lamps' places and shapes; not their powers or cameras
     std::vector<std::string> warnings;  // each said once: what was ignored or replaced
+    std::vector<std::filesystem::path> files;  // what it was read from: no output may take their place
 
     /// Length of the diagonal of the bounds, m.
     float size() const { return length(bounds[1] - bounds[0]); }

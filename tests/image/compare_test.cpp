@@ -83,6 +83,12 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
     EXPECT_EQ(error_of(broken, gradient(1)), "picture: channel \"G\": pixel (5, 2) is not finite");
 }
 
+TEST(Compare, RatiosBeyondTheFloatsAreNumbers) {
+    const Comparison c = compare(gradient(1), gradient(1e-42f));
+    for (const double value : {c.mean_ratio, c.bias, c.rmse_relative, c.rel_mse, c.p95_relative_error, c.flip})
+        EXPECT_TRUE(std::isfinite(value)) << value;
+}
+
 TEST(Compare, TheDifferencePictureIsRedAboveBlueBelowBlackWhereEqual) {
     Image picture = gradient(1);
     for (Channel& channel : picture.channels) channel.values[0] *= 2, channel.values[1] *= 0.5f;

@@ -95,6 +95,24 @@ TEST(Furnace, SamplesOfEveryWhiteMaterialHaveItsAlbedo) {
             }
 }
 
+TEST(Furnace, WhatTheCachedModeTakesForTheAlbedoIsTheIntegralOfTheBrdf) {
+    const Scene empty;
+    const SurfaceReader reader(empty);
+    for (const auto& [metallic, base, ior] : {std::array{1.0f, 1.0f, 1.5f},  // white metal
+                                              std::array{1.0f, 0.3f, 1.5f}, std::array{0.0f, 0.5f, 1.5f},
+                                              std::array{0.0f, 0.0f, 1.5f}, std::array{0.0f, 0.5f, 4.0f},
+                                              std::array{0.0f, 0.5f, 0.0f}})  // reflects everything
+        for (float roughness : {0.25f, 0.4f, 0.6f, 0.8f, 1.0f})
+            for (float z : {1.0f, 0.8f, 0.5f, 0.3f}) {
+                Surface s = dielectric(roughness, 0, false);
+                s.metallic = metallic, s.base_color = vec3(base), s.ior = ior;
+                const double expected = integrated_albedo(s, vec3(std::sqrt(1 - z * z), 0, z));
+                EXPECT_NEAR(reader.albedo_towards(s, z).x, expected, roughness < 0.7f ? 0.035 : 0.025)
+                    << "metallic " << metallic << ", base " << base << ", ior " << ior << ", roughness " << roughness
+                    << ", cosine " << z;
+            }
+}
+
 TEST(Furnace, ALobeThatNarrowsBecomesTheMirrorAndTheClearGlass) {
     for (bool thin : {true, false})
         for (float metallic : {0.0f, 1.0f})

@@ -94,6 +94,16 @@ TEST(Gloss, APolishedFloorShowsWhatThePathTracerShowsAtEveryRoughness) {
                          {"polished"}, 0.01);
 }
 
+TEST(Gloss, RoughWallsThatReflectMuchShowWhatThePathTracerShows) {
+    const Room room("cornell.gltf",
+                    [](Scene& scene) {
+                        Material& white = material_named(scene, "white");
+                        white.ior = 4, white.roughness = 1, white.specular = 1;
+                    },
+                    300000);
+    expect_agreement(room, {"white"}, 0.03);  // the cached mode takes what is reflected between walls as coming from all sides alike
+}
+
 TEST(Gloss, AMetalRingAndAMirrorBallShowWhatThePathTracerShows) {
     const Room room("metal_sculpture.gltf", nullptr, 300000);
     expect_agreement(room, {"gold", "chrome"}, 0.02);

@@ -142,6 +142,54 @@ TEST(FailingMachines, NoProgramWritesOverItsInput) {
     expect_refusal(run("compare", {picture, picture, "--difference", picture}), "is an input");
 }
 
+TEST(FailingMachines, MeasureWritesOverNoInputAndNoFileTwice) {
+    const TempFolder folder;
+    std::filesystem::copy_file(scene_path("cube.gltf"), folder / "cube.gltf");
+    const std::string scene = folder / "cube.gltf", points = folder / "points.csv", walk = folder / "walk.json";
+    write_text(points, "desk,0.5,-1,0.5\n");
+    write_text(walk, R"({"fps": 1, "keys": [{"time": 0, "position": [0, 0, 0.8]}]})");
+    ASSERT_EQ(run("bake", {scene, "--photons", "1000"}).exit_code, 0);
+    const auto measured = [&](Words more) {
+        Words words{scene, "--points", points};
+        words.insert(words.end(), more.begin(), more.end());
+        return run("measure", words);
+    };
+    const std::vector<std::string> before{read_text(scene), read_text(points), read_text(walk), read_text(folder / "cube.pmap")};
+    for (const char* option : {"--csv", "--fields-csv", "--report"})
+        for (const std::string& input : {scene, points, folder / "cube.pmap", folder / "cube.ambiances.json"})
+            expect_refusal(measured({option, input}), "is an input");
+    expect_refusal(measured({"--photons", "1000", "--save-map", points}), "is an input");
+    expect_refusal(measured({"--reflections", walk, "--reflections-csv", walk}), "is an input");
+    expect_refusal(measured({"--csv", folder / "a", "--report", folder / "./a"}), "written twice");
+    expect_refusal(measured({"--photons", "1000", "--save-map", folder / "b", "--csv", folder / "b"}), "written twice");
+    expect_refusal(run("", {scene, "--play", walk, "--size", "16x16", "--timings", folder / "cube.pmap"}), "is an input");
+    EXPECT_EQ(before, (std::vector<std::string>{read_text(scene), read_text(points), read_text(walk),
+                                                read_text(folder / "cube.pmap")}));
+    EXPECT_EQ(folder.names(), (Words{"cube.gltf", "cube.pmap", "points.csv", "walk.json"}));
+}
+
+TEST(FailingMachines, APhotometricFileIsAnInputToo) {
+    const TempFolder folder;
+    const std::string file = folder / "lamp.ies";
+    std::filesystem::copy_file(scene_path("photometry/flood.ies"), file);
+    const std::string before = read_text(file);
+    expect_refusal(run("bake", {scene_path("cube.gltf"), "--ies", "lamp=" + file, "-o", file, "--photons", "100"}),
+                   "is an input");
+    EXPECT_EQ(read_text(file), before);
+}
+
+TEST(FailingMachines, AFileThatMayNotGrowIsToldLikeAFullDisk) {
+    const TempFolder folder;
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{4096, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);  // without ignoring the signal that this sends
+    const Outcome outcome = run("bake", {scene_path("cube.gltf"), "-o", folder / "map", "--photons", "5000"});
+    setrlimit(RLIMIT_FSIZE, &before);
+    expect_refusal(outcome, "is the disk full?");
+    EXPECT_EQ(folder.names(), Words{});
+}
+
 TEST(FailingMachines, OptionsThatAreNoNumberAreRefusedWith2) {
     const std::string scene = scene_path("cube.gltf");
     for (const char* value : {"nan", "inf", "-inf", "1e999", "", "1m"}) {

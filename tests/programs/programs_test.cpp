@@ -136,6 +136,8 @@ TEST(CommandLine, IsRefusedWith2WhenAValueMakesNoSense) {
         {"screenshot", {"--list-lights"}},
         {"reference", {scene, "-o", png}},
         {"reference", {scene, "-o", exr, "--size", "0x10"}},
+        {"reference", {scene, "-o", exr, "--size", "4294967297x8"}},
+        {"screenshot", {scene, "-o", png, "--size", "+8x8"}},
         {"reference", {scene, "-o", exr, "--power", "lamp"}},
         {"reference", {scene, "-o", exr, "--samples", "0"}},
         {"reference", {scene, "-o", exr, "--time", "-1"}},

@@ -95,7 +95,8 @@ TEST_F(Surroundings, OutputsThatAreNoFilesStayWhatTheyAre) {
 
 TEST_F(Surroundings, InputsThatHaveNoEndOrAreNoFilesAreRefused) {
     std::filesystem::create_symlink("loop", *folder / "loop");
-    for (const char* input : {"/dev/zero", "/dev/null", "/dev/random", "loop", "."})
+    ASSERT_EQ(mkfifo((*folder / "pipe").c_str(), 0600), 0);  // which nobody writes to
+    for (const char* input : {"/dev/zero", "/dev/null", "/dev/random", "loop", ".", "pipe"})
         for (const char* line : {"$BIN/lumenwalk-bake @ -o made", "$BIN/lumenwalk-bake $CUBE -o made --ies lamp=@",
                                  "$BIN/lumenwalk-reference @ -o made.exr", "$BIN/lumenwalk-compare a.exr @",
                                  "$BIN/lumenwalk-measure @ --points points.csv",

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scene/gltf_text.h"
 
 namespace lw::test {
@@ -261,6 +263,50 @@ TEST(GltfErrors, FactorsBeyondTheFloatsAreRefusedOrBounded) {
     camera.doc["nodes"].push_back({{"camera", 0}, {"translation", {1e20, 0, 0}}});
     camera.doc["scenes"][0]["nodes"].push_back(2);
     EXPECT_NE(message(camera).find("the camera is too far away"), std::string::npos) << message(camera);
+}
+
+TEST(GltfErrors, NumbersOfTheWrongTypeOrSignAreTold) {
+    const auto with = [](const char* place, const Json& value) {
+        GltfText g = square();
+        g.primitive()["material"] = 0;
+        g.doc["materials"] = {{{"name", "paint"}}};
+        g.doc["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+        g.doc[Json::json_pointer(place)] = value;
+        return g;
+    };
+    const std::string lamp = "/extensions/KHR_lights_punctual/lights/0/", paint = "/materials/0/";
+    struct Case {
+        std::string place;
+        Json value;
+        const char* told;
+    };
+    const Case refused[] = {
+        {lamp + "intensity", "5", "intensity must be a number"},
+        {lamp + "intensity", -5, "intensity must be at least 0"},
+        {lamp + "color", {1, 1}, "color must be 3 numbers"},
+        {lamp + "color", {-1, 1, 1}, "color must be at least 0"},
+        {paint + "extensions/KHR_materials_emissive_strength/emissiveStrength", -1, "emissiveStrength must be at least 0"},
+        {paint + "emissiveFactor", {1, -1, 0}, "material 0 \"paint\": emissiveFactor must be at least 0"},
+        {paint + "pbrMetallicRoughness/roughnessFactor", "1", "roughnessFactor must be a number"},
+        {paint + "pbrMetallicRoughness/baseColorFactor", {1, 1, 1}, "baseColorFactor must be 4 numbers"},
+        {"/cameras/0/perspective/yfov", 0, "camera 0: yfov must be more than 0"},
+        {"/cameras/0/perspective/aspectRatio", -1, "aspectRatio must be more than 0"},
+        {"/asset/minVersion", "2.1", "needs a reader of glTF \"2.1\""},
+    };
+    for (const Case& c : refused) EXPECT_NE(message(with(c.place.c_str(), c.value)).find(c.told), std::string::npos) << c.told;
+    const Case warned[] = {
+        {paint + "pbrMetallicRoughness/roughnessFactor", -1, "roughnessFactor should be from 0 to 1"},
+        {paint + "pbrMetallicRoughness/metallicFactor", 5, "metallicFactor should be from 0 to 1"},
+        {paint + "pbrMetallicRoughness/baseColorFactor", {2, 1, 1, 1}, "baseColorFactor should be from 0 to 1"},
+        {"/cameras/0/perspective/yfov", 4, "yfov should be from 0 to 3.1"},
+    };
+    for (const Case& c : warned) {
+        const Scene scene = with(c.place.c_str(), c.value).load();
+        const bool is_told = std::any_of(scene.warnings.begin(), scene.warnings.end(), [&](const std::string& warning) {
+            return warning.find(c.told) != std::string::npos;
+        });
+        EXPECT_TRUE(is_told) << c.told;
+    }
 }
 
 TEST(GltfErrors, LampsBeyondAllLampsAreRefused) {

@@ -84,7 +84,12 @@ TEST(GltfFiles, ExternalBufferBesideTheFile) {
     GltfText::write(std::string(g.bytes.begin(), g.bytes.end()), "room one.bin");
     Json doc = g.doc;
     doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "room%20one.bin"}}};
-    EXPECT_EQ(load_gltf(GltfText::write(doc.dump(), "room.gltf")).triangles.size(), 2u);
+    const std::filesystem::path path = GltfText::write(doc.dump(), "room.gltf");
+    const Scene scene = load_gltf(path);
+    EXPECT_EQ(scene.triangles.size(), 2u);
+    ASSERT_EQ(scene.files.size(), 2u) << "no output may take their place";
+    EXPECT_TRUE(std::filesystem::equivalent(scene.files[0], path));
+    EXPECT_TRUE(std::filesystem::equivalent(scene.files[1], path.parent_path() / "room one.bin"));
 }
 
 TEST(GltfFiles, NotGltfAtAll) {
