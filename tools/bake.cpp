@@ -139,7 +139,9 @@ int main(int argc, char** argv) {
                    "(the paper)")
         ->capture_default_str()
         ->check(CLI::IsMember({"exact", "photons"}));
-    app.add_option("--seed", options.seed, "seed of the random numbers")->capture_default_str();
+    app.add_option("--seed", options.seed, "seed of the random numbers")
+        ->check(lw::whole_number())
+        ->capture_default_str();
     app.add_option("--ies", options.photometry,
                    "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
                    "the same for bake and all "

@@ -293,7 +293,9 @@ void add_options(CLI::App& app, Options& o) {
     add_effort(app, o);
     add_reports(app, o);
     add_reflections(app, o);
-    app.add_option("--seed", o.survey.meter.seed, "seed of the random numbers")->capture_default_str();
+    app.add_option("--seed", o.survey.meter.seed, "seed of the random numbers")
+        ->check(lw::whole_number())
+        ->capture_default_str();
     app.add_option("--ies", o.photometry,
                    "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
                    "the same for bake and all "

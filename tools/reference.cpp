@@ -97,7 +97,9 @@ int main(int argc, char** argv) {
         ->check(lw::finite_number(0, 1e6));
     app.add_option("--ambiance", options.ambiance,
                    "powers of this name in SCENE.ambiances.json; --power multiplies them");
-    app.add_option("--seed", options.settings.seed, "seed of the random numbers")->capture_default_str();
+    app.add_option("--seed", options.settings.seed, "seed of the random numbers")
+        ->check(lw::whole_number())
+        ->capture_default_str();
     app.add_option("--ies", options.photometry,
                    "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
                    "the same for bake and all "

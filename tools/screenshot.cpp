@@ -91,7 +91,8 @@ std::string misuse_of(const Options& o) {
     const std::string extension = std::filesystem::path(o.output).extension().string();
     if (o.scene.empty() && (!o.lists() || o.list_cameras || o.list_lights)) return "a scene is required";
     if (!o.lists() && extension != ".exr" && extension != ".png") return "--output: must end in .exr or .png";
-    if (!o.size.empty() && lw::parse_picture_size(o.size, 1, 65536).width == 0) return "--size: must be WxH in pixels, as 1280x720";
+    if (!o.size.empty() && lw::parse_picture_size(o.size, 1, 65536).width == 0)
+        return "--size: must be WxH in pixels, as 1280x720";
     for (const std::string& power : o.powers)
         if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
     return "";
@@ -158,7 +159,8 @@ void take_screenshot(const Options& o) {
     refuse_validation_messages(device);
     lw::check_is_light(picture.image);
     write_picture(o.output, picture);
-    std::printf("%s: %ux%u on %s, %.0f MiB on the device, EV %.2f\n", lw::one_line(o.output).c_str(), size.width, size.height,
+    std::printf("%s: %ux%u on %s, %.0f MiB on the device, EV %.2f\n", lw::one_line(o.output).c_str(), size.width,
+                size.height,
                 device.name().c_str(), double(resident.bytes()) / 1048576.0, double(picture.exposure_ev));
     std::printf("visibility %.2f ms, gather %.2f ms, tone mapping %.2f ms (median of %u)\n",
                 picture.times.visibility_ms, picture.times.gather_ms, picture.times.tonemap_ms, o.frames);

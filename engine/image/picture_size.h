@@ -19,7 +19,8 @@ inline WantedSize parse_picture_size(std::string_view text, unsigned least, unsi
         const auto [stop, failure] = std::from_chars(first, last, number);
         return failure == std::errc() && stop == last && number >= least && number <= most;
     };
-    const bool whole = cross != end && is_whole(text.data(), cross, size.width) && is_whole(cross + 1, end, size.height);
+    const bool whole =
+        cross != end && is_whole(text.data(), cross, size.width) && is_whole(cross + 1, end, size.height);
     return whole ? size : WantedSize{};
 }
 

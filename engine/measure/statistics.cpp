@@ -36,6 +36,7 @@ Statistics statistics_of(std::span<const Reading> readings, std::span<const Valu
         const Value& value = values[i];
         ++result.count;
         result.doubtful += !value.doubt.empty();
+        result.unlit += is_dark(readings[i]);
         sum += value.lux, squares += value.lux * value.lux, ray_variance += value.ray_error * value.ray_error,
             photon_error += value.photon_error;
         if (!least || value.lux < least->lux) least = &value;
@@ -54,7 +55,7 @@ Statistics statistics_of(std::span<const Reading> readings, std::span<const Valu
 }
 
 Judgement judge(const Statistics& statistics, const Task& task) {
-    if (statistics.count == 0) return {Verdict::undecided, Verdict::undecided};
+    if (statistics.count == statistics.unlit) return {Verdict::undecided, Verdict::undecided};
     return {compare(statistics.average, task.illuminance), compare(statistics.u0, task.uniformity)};
 }
 

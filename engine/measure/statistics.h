@@ -21,6 +21,7 @@ struct Statistics {
     size_t count = 0;                    // sensors counted
     size_t blocked = 0;                  // sensors left out: inside or right under something
     size_t doubtful = 0;                 // sensors that should not be trusted
+    size_t unlit = 0;                    // sensors that no lamp reaches: most likely outside the room
 };
 
 /// Photons are shared by all sensors of a field, so their errors are taken as common to all (an upper bound); those of

@@ -55,7 +55,7 @@ std::string range_of(const Quantity& q) {
     return text;
 }
 
-/// "roughnessFactor must be a number", "color must be 3 numbers".
+/// The last word of the place.
 std::string name_of(const Quantity& q) { return std::string(q.place).substr(std::string(q.place).rfind('/') + 1); }
 
 void check(GltfFile& file, const Json& element, const std::string& where, const Quantity& q) {

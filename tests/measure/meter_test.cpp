@@ -212,6 +212,11 @@ TEST(Statistics, JudgeATaskOnlyOutsideTheInterval) {
     EXPECT_EQ(judged(495, 10), Verdict::undecided);
     EXPECT_EQ(judged(480, 10), Verdict::fail);
     EXPECT_EQ(judge(Statistics{}, find_task("office")).both(), Verdict::undecided) << "all sensors blocked";
+    Reading unlit;
+    unlit.lamps.assign(2, ChannelLux(0));
+    const Value dark;
+    const Statistics outside = statistics_of(std::span(&unlit, 1), std::span(&dark, 1));
+    EXPECT_EQ(judge(outside, find_task("office")).both(), Verdict::undecided) << "outside the room";
     EXPECT_NE(error_of([] { find_task("nap"); }).find("there are: office"), std::string::npos);
 }
 

@@ -101,7 +101,7 @@ TEST(Gloss, RoughWallsThatReflectMuchShowWhatThePathTracerShows) {
                         white.ior = 4, white.roughness = 1, white.specular = 1;
                     },
                     300000);
-    expect_agreement(room, {"white"}, 0.03);  // the cached mode takes what is reflected between walls as coming from all sides alike
+    expect_agreement(room, {"white"}, 0.03);  // the cached mode takes light between walls as coming from all sides alike
 }
 
 TEST(Gloss, AMetalRingAndAMirrorBallShowWhatThePathTracerShows) {

@@ -154,7 +154,8 @@ TEST(FailingMachines, MeasureWritesOverNoInputAndNoFileTwice) {
         words.insert(words.end(), more.begin(), more.end());
         return run("measure", words);
     };
-    const std::vector<std::string> before{read_text(scene), read_text(points), read_text(walk), read_text(folder / "cube.pmap")};
+    const std::vector<std::string> before{read_text(scene), read_text(points), read_text(walk),
+                                          read_text(folder / "cube.pmap")};
     for (const char* option : {"--csv", "--fields-csv", "--report"})
         for (const std::string& input : {scene, points, folder / "cube.pmap", folder / "cube.ambiances.json"})
             expect_refusal(measured({option, input}), "is an input");

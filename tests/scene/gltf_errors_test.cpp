@@ -293,7 +293,8 @@ TEST(GltfErrors, NumbersOfTheWrongTypeOrSignAreTold) {
         {"/cameras/0/perspective/aspectRatio", -1, "aspectRatio must be more than 0"},
         {"/asset/minVersion", "2.1", "needs a reader of glTF \"2.1\""},
     };
-    for (const Case& c : refused) EXPECT_NE(message(with(c.place.c_str(), c.value)).find(c.told), std::string::npos) << c.told;
+    for (const Case& c : refused)
+        EXPECT_NE(message(with(c.place.c_str(), c.value)).find(c.told), std::string::npos) << c.told;
     const Case warned[] = {
         {paint + "pbrMetallicRoughness/roughnessFactor", -1, "roughnessFactor should be from 0 to 1"},
         {paint + "pbrMetallicRoughness/metallicFactor", 5, "metallicFactor should be from 0 to 1"},
