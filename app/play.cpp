@@ -119,9 +119,11 @@ void play(const PlaySettings& settings) {
     const std::vector<vec3> factors = chosen_factors(world.scene, settings.ambiance, {});
     const auto map = std::make_shared<const PhotonMap>(load_photon_map(settings.map, world.scene));
     if (!settings.frames.empty()) prepare_folder(settings.frames);
-    std::vector<std::filesystem::path> inputs = world.scene.files;
-    inputs.insert(inputs.end(), {settings.map, settings.path, default_ambiances_path(settings.scene)});
-    if (!settings.timings.empty()) check_can_create(settings.timings, inputs);
+    if (!settings.timings.empty()) {
+        std::vector<std::filesystem::path> inputs = world.scene.files;
+        inputs.insert(inputs.end(), {settings.map, settings.path, default_ambiances_path(settings.scene)});
+        check_can_create(settings.timings, inputs);
+    }
     const Device device(settings.device);
     Stage stage(device, world.scene, map, world.bvh);
     stage.resize(settings.size);

@@ -160,8 +160,7 @@ void take_screenshot(const Options& o) {
     lw::check_is_light(picture.image);
     write_picture(o.output, picture);
     std::printf("%s: %ux%u on %s, %.0f MiB on the device, EV %.2f\n", lw::one_line(o.output).c_str(), size.width,
-                size.height,
-                device.name().c_str(), double(resident.bytes()) / 1048576.0, double(picture.exposure_ev));
+                size.height, device.name().c_str(), double(resident.bytes()) / 1048576.0, double(picture.exposure_ev));
     std::printf("visibility %.2f ms, gather %.2f ms, tone mapping %.2f ms (median of %u)\n",
                 picture.times.visibility_ms, picture.times.gather_ms, picture.times.tonemap_ms, o.frames);
 }

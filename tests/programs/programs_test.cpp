@@ -138,7 +138,7 @@ TEST(CommandLine, IsRefusedWith2WhenAValueMakesNoSense) {
         {"reference", {scene, "-o", exr, "--size", "0x10"}},
         {"reference", {scene, "-o", exr, "--size", "4294967297x8"}},
         {"reference", {scene, "-o", exr, "--seed", "-1"}},
-        {"bake", {scene, "--seed", "99999999999999999999"}},
+        {"bake", {scene, "-o", folder / "made.pmap", "--seed", "99999999999999999999"}},
         {"screenshot", {scene, "-o", png, "--size", "+8x8"}},
         {"reference", {scene, "-o", exr, "--power", "lamp"}},
         {"reference", {scene, "-o", exr, "--samples", "0"}},

@@ -95,7 +95,6 @@ TEST(NoNumber, IsInNoPictureOfTheReferenceWhateverTheCamera) {
         }
 }
 
-/// Of a map without any photon and one of photons in one point.
 TEST(NoNumber, IsReadWhereAllPhotonsLieInOnePoint) {
     Baked baked(plain_room(), 1'000);
     const SurfaceReader surface(baked.scene);
@@ -118,6 +117,7 @@ TEST(NoNumber, IsReadWhereAllPhotonsLieInOnePoint) {
     }
 }
 
+/// Of a map without any photon and one of photons in one point.
 TEST(NoNumber, IsInNoPictureOfAMapOfHardlyAPhoton) {
     SKIP_WITHOUT_LAVAPIPE();
     const Device device({"llvmpipe", true});
