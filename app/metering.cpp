@@ -28,8 +28,8 @@ std::string quoted(const std::string& text) {
 /// What the picture shows at a pixel.
 std::optional<Hit> hit_at(const Session& s, vec2 pixel, vec2 size) {
     const Camera camera = camera_of(s.walker, s.yfov, s.near);
-    return seen_from(s.world.scene, s.world.caster, camera.position,
-                     camera_direction(camera, pixel.x, pixel.y, int(size.x), int(size.y)));
+    const vec3 direction = camera_direction(camera, pixel.x, pixel.y, int(size.x), int(size.y));
+    return seen_from(s.world.scene, s.world.caster, camera_origin(camera, direction), direction);
 }
 
 void check_is_light(const Measurement& m, size_t pin) {

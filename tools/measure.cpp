@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -66,10 +67,20 @@ lw::PhotonMap map_of(const Options& o, const lw::Scene& scene, const lw::RayCast
                                 settings);
 }
 
+/// Refuses a second set of results that could not be told from the first.
+void check_is_new(const char* option, const std::string& name, std::set<std::string>& names) {
+    if (!names.insert(name).second)
+        throw lw::Error(std::string(option) + " \"" + name + "\": there are two of this name");
+}
+
 std::vector<lw::SensorSet> sets_of(const Options& o, const lw::Scene& scene) {
     std::vector<lw::SensorSet> sets;
+    std::set<std::string> names;
     for (const std::string& path : o.points) sets.push_back(lw::read_points(path, scene));
-    for (const std::string& text : o.grids) sets.push_back(lw::make_grid(lw::parse_grid(text), scene));
+    for (const std::string& text : o.grids) {
+        sets.push_back(lw::make_grid(lw::parse_grid(text), scene));
+        check_is_new("--grid", sets.back().name, names);
+    }
     for (const std::string& text : o.surfaces) sets.push_back(lw::make_surface(text, scene));
     return sets;
 }
@@ -78,7 +89,11 @@ std::vector<lw::PowerSetting> ambiances_of(const Options& o, const lw::Scene& sc
     std::vector<lw::PowerSetting> ambiances;
     if (o.ambiances.empty() || !o.powers.empty())
         ambiances.push_back({o.powers.empty() ? "all" : "powers", lw::parse_powers(scene, o.powers)});
-    for (const std::string& text : o.ambiances) ambiances.push_back(lw::parse_ambiance(text, scene));
+    std::set<std::string> names;
+    for (const std::string& text : o.ambiances) {
+        ambiances.push_back(lw::parse_ambiance(text, scene));
+        check_is_new("--ambiance", ambiances.back().name, names);
+    }
     return ambiances;
 }
 

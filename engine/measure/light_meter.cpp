@@ -154,6 +154,7 @@ Reading LightMeter::read(const Sensor& asked, size_t index, const MeterSettings&
     reading.rays = std::max(settings.rays / repetitions, 1u) * repetitions;
     reading.kernel_bias = bias_of_kernels * max_radius / scene_size;
     reading.near_border = is_near_border(*this, caster_, sensor);
+    reading.at_lamp = is_at_lamp(scene_, sensor);
     Rng blocking(settings.seed, 0, index);
     reading.blocked = sensor.response == Response::planar;
     for (int i = 0; i < looks_around && reading.blocked; ++i)

@@ -15,6 +15,7 @@ constexpr float height_over_surface = 1e-3f;  // m
 constexpr float tolerance = 0.05f;            // of the height
 constexpr float on_surface_within = 2e-3f;    // m
 constexpr float border_within = 1e-2f;        // m
+constexpr float lamp_within = 1e-2f;          // m
 constexpr int directions_beside = 16;
 constexpr float least_alignment = 0.99f;  // cosine between a sensor and the surface it measures
 constexpr float facing = 0.5f;            // cosine from which a surface is on one side of another direction
@@ -126,6 +127,13 @@ bool is_near_border(const SurfaceReader& surfaces, const RayCaster& caster, cons
         if (lies && !caster.nearest(above, -sensor.normal, on_surface_within + 0.2f * border_within)) return true;
     }
     return false;
+}
+
+bool is_at_lamp(const Scene& scene, const Sensor& sensor) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& lamp) {
+        return lamp.type != light_mesh && lamp.type != light_directional &&
+               length(lamp.position - sensor.position) < lamp_within;
+    });
 }
 
 }  // namespace lw

@@ -21,6 +21,7 @@ constexpr double fewest_photons = 100;
 std::string doubt_of(const Reading& reading, const Value& value) {
     char text[96] = "";
     if (reading.blocked) return "inside or right under an object";
+    if (reading.at_lamp) return "within 1 cm of a lamp without size";
     if (is_dark(reading)) return "no light found";
     if (value.photons < fewest_photons && value.photon_error > 0.02 * value.lux) {
         std::snprintf(text, sizeof text, "too few photons (%.0f effective)", value.photons);

@@ -28,6 +28,7 @@ struct Reading {
     uint rays = 0;
     bool blocked = false;      // inside or right under something
     bool near_border = false;  // is_near_border()
+    bool at_lamp = false;      // is_at_lamp()
 };
 
 /// One number to sign: lux and half the width of its 90 % interval.

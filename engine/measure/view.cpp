@@ -60,7 +60,7 @@ std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster
     parallel_for(size_t(height), [&](size_t y) {
         for (int x = 0; x < width; ++x) {
             const vec3 direction = camera_direction(camera, float(x) + 0.5f, float(y) + 0.5f, width, height);
-            const auto hit = caster.nearest(camera.position, direction);
+            const auto hit = caster.nearest(camera_origin(camera, direction), direction);
             if (!hit) continue;
             const size_t pixel = y * size_t(width) + size_t(x);
             lux[pixel] = double(

@@ -59,6 +59,10 @@ vec3 camera_direction(const Camera& camera, float x, float y, int width, int hei
     return normalize(camera.rotation * vec3(right, up, -1));
 }
 
+vec3 camera_origin(const Camera& camera, vec3 direction) {
+    return camera.position + direction * (camera.near / -dot(direction, camera.rotation[2]));
+}
+
 std::vector<vec3> parse_powers(const Scene& scene, const std::vector<std::string>& texts) {
     std::vector<vec3> factors(scene.lights.size(), vec3(1));
     for (const std::string& text : texts) {

@@ -25,7 +25,7 @@ mat3 rotation_of(const glm::dmat4& world) {
 void set_perspective(const tinygltf::PerspectiveCamera& source, Camera& camera) {
     if (source.yfov > 0) camera.yfov = float(std::clamp(source.yfov, 1e-3, 3.1));
     if (source.aspectRatio > 0) camera.aspect = float(std::clamp(source.aspectRatio, 1e-3, 1e3));
-    if (source.znear > 0) camera.near = float(std::clamp(source.znear, 1e-6, 10.0));
+    if (source.znear > 0) camera.near = float(std::clamp(source.znear, 1e-15, 10.0));
 }
 
 /// A perspective that shows at the middle of the scene what the parallel view shows everywhere.
@@ -60,7 +60,7 @@ Camera default_camera(const Scene& scene) {
     camera.rotation = mat3(cross(vec3(0, 1, 0), back), vec3(0, 1, 0), back);
     camera.yfov = 1.1f;
     const float longest = std::max({size.x, size.y, size.z});
-    camera.near = std::clamp(longest * 1e-3f, 1e-5f, 0.05f);
+    camera.near = std::clamp(longest * 1e-3f, 1e-15f, 0.05f);
     for (int side : {1, 2, 0})
         if (size[side] < 1e-3f * longest) {
             face_flat_scene(size, side, camera);

@@ -29,7 +29,7 @@ Light punctual_light(const GltfFile& file, const tinygltf::Light& source, const 
         file.fail(where + ": unknown type \"" + source.type + "\"");
     const std::vector<double>& c = source.color;
     const glm::dvec3 color = c.size() >= 3 ? glm::dvec3(c[0], c[1], c[2]) : glm::dvec3(1);
-    light.intensity = vec3(glm::max(color * source.intensity, glm::dvec3(0)));
+    light.intensity = vec3(color * source.intensity);
     light.position = vec3(glm::dvec3(at.world[3]) - scene.origin);
     light.direction = unit_or(-glm::dvec3(at.world[2]), vec3(0, -1, 0));
     light.across = across_of(at, light.direction);

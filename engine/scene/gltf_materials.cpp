@@ -29,7 +29,7 @@ void read_base(const tinygltf::Material& source, Material& m) {
     m.alpha = pbr.baseColorFactor.size() == 4 ? unit(pbr.baseColorFactor[3]) : 1.0f;
     m.metallic = unit(pbr.metallicFactor);
     m.roughness = unit(pbr.roughnessFactor);
-    m.emissive = glm::max(vector_of(source.emissiveFactor, vec3(0)), vec3(0));
+    m.emissive = vector_of(source.emissiveFactor, vec3(0));
     m.alpha_cutoff = float(source.alphaCutoff);
     m.normal_scale = float(source.normalTexture.scale);
     if (source.doubleSided) m.flags |= material_double_sided;
@@ -39,7 +39,7 @@ void read_base(const tinygltf::Material& source, Material& m) {
 
 void read_extensions(const tinygltf::Material& source, Material& m) {
     if (const auto* e = extension_of(source.extensions, "KHR_materials_emissive_strength"))
-        m.emissive *= float(std::max(number_of(*e, "emissiveStrength", 1), 0.0));
+        m.emissive *= float(number_of(*e, "emissiveStrength", 1));
     if (const auto* e = extension_of(source.extensions, "KHR_materials_specular")) {
         m.specular = unit(number_of(*e, "specularFactor", 1));
         m.specular_color = glm::max(vector_of(*e, "specularColorFactor", vec3(1)), vec3(0));

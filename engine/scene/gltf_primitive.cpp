@@ -118,6 +118,8 @@ class AttributeReader {
         for (size_t i = 0; i < kept.size(); ++i)
             for (size_t c = 0; c < found->components; ++c) {
                 const float value = found->row(kept[i])[c];
+                if (!std::isfinite(value) && name == "COLOR_0")
+                    file_.fail(where_ + ": " + name + " of vertex " + std::to_string(kept[i]) + " is not finite");
                 vectors[i][glm::length_t(c)] = std::isfinite(value) ? value : 0.0f;
             }
         return vectors;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "base/input_file.h"
@@ -23,8 +24,16 @@ nlohmann::json read_json(const std::filesystem::path& path) {
     std::ifstream stream = open_input(path);
     if (!stream) throw Error(path.string() + ": cannot be opened");
     if (std::filesystem::file_size(path, failure) > most_bytes) throw Error(path.string() + ": larger than 64 MiB");
+    std::vector<std::set<std::string>> keys;  // of the objects that are open
+    const auto check_keys = [&](int, Json::parse_event_t event, Json& value) {
+        if (event == Json::parse_event_t::object_start) keys.emplace_back();
+        if (event == Json::parse_event_t::object_end) keys.pop_back();
+        if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+            fail(path.string(), "\"" + value.get<std::string>() + "\" is written twice in one object");
+        return true;
+    };
     try {
-        return nlohmann::json::parse(stream);
+        return Json::parse(stream, check_keys);
     } catch (const nlohmann::json::exception& wrong) {
         throw Error(path.string() + ": is not JSON: " + wrong.what());
     }

@@ -9,6 +9,7 @@
 #include "photons/shoot.h"
 #include "scene/gltf.h"
 #include "trace/build_bvh.h"
+#include "trace/reference.h"
 
 namespace lw {
 namespace {
@@ -105,6 +106,27 @@ TEST(Renderer, SeesTheRightTriangleBarycentricsAndDepth) {
         EXPECT_EQ(picture.image.find("triangle")->values[i], float(visible[i].triangle)) << i;
     }
     EXPECT_EQ(device.validation_messages(), std::vector<std::string>{});
+}
+
+TEST(Renderer, AndTheReferenceSeeNothingBeforeTheNearPlane) {
+    const Device device({"", true});
+    Scene scene = two_walls();
+    scene.cameras[0].near = 2.5f;
+    scene.lights.clear();
+    for (Material& m : scene.materials) m.emissive = vec3(0);
+    for (Object& o : scene.objects) o.light = -1;
+    const PhotonMap dark = no_photons();
+    const Image picture = picture_of(device, scene, dark, {}).image;
+    ReferenceSettings settings;
+    settings.width = 64, settings.height = 48, settings.samples = 1;
+    const RayCaster caster(scene);
+    const Image truth = render_reference(scene, caster, scene.cameras[0], {}, settings).image;
+    for (size_t i = 0; i < size_t(64 * 48); ++i) {
+        EXPECT_GE(picture.find("triangle")->values[i], 2) << i;
+        EXPECT_EQ(picture.find("triangle")->values[i], truth.find("triangle")->values[i]) << i;
+        EXPECT_NEAR(picture.find("depth")->values[i], 4, 1e-4f) << i;
+        EXPECT_NEAR(truth.find("depth")->values[i], 4, 1e-4f) << i;
+    }
 }
 
 TEST(Renderer, ShowsTheGlowOfADimmedLampAndNothingElseWithoutPhotons) {

@@ -131,6 +131,25 @@ TEST(Borders, ValuesWithinACentimetreOfOneAreDoubted) {
         EXPECT_EQ(values[i].doubt == "within 1 cm of a border", near_border[i]) << i << ": " << values[i].doubt;
 }
 
+TEST(Borders, SensorsAtALampWithoutSizeAreDoubted) {
+    LabScene lab;
+    lab.add_room({-2, -2, -2}, {2, 2, 2}, 0.5f);
+    lab.add_point({0, 1, 0}, 100);
+    const vec3 up(0, 1, 0);
+    const Survey survey = measured(lab.finish(), {{SensorSet::Kind::points,
+                                                   "p",
+                                                   "",
+                                                   {{{0, 1, 0}, up, Response::planar},
+                                                    {{0, 0.992f, 0}, up, Response::planar},
+                                                    {{0, 1, 0}, up, Response::cylindrical},
+                                                    {{0, 0.9f, 0}, up, Response::planar}},
+                                                   {},
+                                                   {}}});
+    const std::vector<Value> values = values_of(survey.sets[0], survey.ambiances[0], 1);
+    for (size_t i = 0; i < values.size(); ++i)
+        EXPECT_EQ(values[i].doubt == "within 1 cm of a lamp without size", i < 3) << i << ": " << values[i].doubt;
+}
+
 TEST(Borders, SensorsInsideSolidObjectsAreLeftOut) {
     LabScene lab;
     lab.add_room({-2, -2, -2}, {2, 2, 2}, 0.5f);

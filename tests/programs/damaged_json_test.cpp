@@ -160,6 +160,20 @@ TEST(DamagedJson, WhatOnlyOneCheckRefusesIsNamed) {
     }
 }
 
+TEST(DamagedJson, NamesWrittenTwiceAreRefused) {
+    const TempFolder folder;
+    const std::string path = folder / "cornell.ambiances.json";
+    write_text(path, R"({"ambiances": {"day": {"lamp": 1}, "evening": {"lamp": 0.5}, "day": {"lamp": 2}}})");
+    try {
+        load_lamp_book(path);
+        ADD_FAILURE();
+    } catch (const Error& refusal) {
+        EXPECT_EQ(std::string(refusal.what()), path + ": \"day\" is written twice in one object");
+    }
+    write_text(path, R"({"ambiances": {"day": {"lamp": 1}, "evening": {"lamp": 0.5}}})");
+    EXPECT_EQ(load_lamp_book(path).ambiances.size(), 2u);
+}
+
 TEST(DamagedJson, NestedDeeplyOrHugeIsRefused) {
     const TempFolder folder;
     const std::string path = folder / "cornell.some.json";

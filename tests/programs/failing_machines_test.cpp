@@ -169,6 +169,19 @@ TEST(FailingMachines, MeasureWritesOverNoInputAndNoFileTwice) {
     EXPECT_EQ(folder.names(), (Words{"cube.gltf", "cube.pmap", "points.csv", "walk.json"}));
 }
 
+TEST(FailingMachines, GridsAndAmbiancesOfOneNameAreRefused) {
+    const std::string scene = scene_path("cube.gltf"), grid = "desk: -0.5,-0.5,-0.5 to 0.5,-0.5,0.5";
+    const auto measured = [&](Words more) {
+        Words words{scene, "--photons", "1000", "--grid", grid};
+        words.insert(words.end(), more.begin(), more.end());
+        return run("measure", words);
+    };
+    expect_refusal(measured({"--grid", grid}), "--grid \"desk\": there are two of this name");
+    expect_refusal(measured({"--ambiance", "dim: lamp=0.5", "--ambiance", "dim: lamp=0.2"}),
+                   "--ambiance \"dim\": there are two of this name");
+    EXPECT_EQ(measured({"--ambiance", "dim: lamp=0.5", "--ambiance", "day: lamp=1"}).exit_code, 0);
+}
+
 TEST(FailingMachines, APhotometricFileIsAnInputToo) {
     const TempFolder folder;
     const std::string file = folder / "lamp.ies";

@@ -69,6 +69,7 @@ TEST(NoNumber, IsWrittenByNoPathTracer) {
     const TempFolder folder;
     Room room = plain_room();
     room.node = glm::scale(glm::dmat4(1), glm::dvec3(1e-10));
+    room.znear = 1e-12;
     room.candela = 3e14;
     expect_refusal(run("reference", {load(room).path, "-o", folder / "a.exr", "--size", "8x8", "--samples", "2",
                                      "--power", "lamp=1e12"}),

@@ -151,7 +151,7 @@ Scene load(const Room& room) {
                       {{"mesh", 0}},
                       lamp,
                       {{"camera", 0}, {"translation", {room.eye.x, room.eye.y, room.eye.z}}, {"name", "eye"}}};
-    g.doc["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", room.yfov}, {"znear", 0.01}}}}};
+    g.doc["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", room.yfov}, {"znear", room.znear}}}}};
     g.doc["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", room.candela}}};
     return load_gltf(GltfText::write(glb_of(g.doc, g.bytes), "disguised.glb"));
 }

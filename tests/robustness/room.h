@@ -23,6 +23,7 @@ struct Room {
     double candela = 300, panel_luminance = 2000;  // cd/m2
     glm::dvec3 lamp{2.5, 2.2, 2.5}, eye{3.2, 1.6, 4.2};
     double yfov = 1.1;
+    double znear = 0.01;  // m
     bool double_sided = false;
     double unit = 1;  // what a metre is in the vertices
     glm::dmat4 node{1};

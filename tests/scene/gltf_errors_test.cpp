@@ -110,6 +110,14 @@ TEST(GltfErrors, PositionThatIsNotFinite) {
     }
 }
 
+TEST(GltfErrors, ColourThatIsNotFinite) {
+    GltfText g = square();
+    std::vector<float> colors(4 * 3, 0.5f);
+    colors[7] = std::numeric_limits<float>::quiet_NaN();
+    g.floats("COLOR_0", colors, "VEC3");
+    EXPECT_EQ(message(g), "room.gltf: mesh 0 \"lamp\": primitive 0: COLOR_0 of vertex 2 is not finite");
+}
+
 TEST(GltfErrors, EveryIndexOutOfRangeIsNamed) {
     const auto refused = [](const char* named, const auto& bend) {
         GltfText g = square();
