@@ -89,8 +89,8 @@ int lamp_at(const Session& s, vec2 pixel, vec2 size) {
     }
     if (nearest >= 0) return nearest;
     const Camera camera = camera_of(s.walker, s.yfov, s.near);
-    const vec3 direction = camera_direction(camera, pixel.x, pixel.y, int(size.x), int(size.y));
-    const std::optional<Hit> hit = seen_from(scene, s.world.caster, camera_origin(camera, direction), direction);
+    const CameraRay ray = camera_ray(camera, pixel.x, pixel.y, int(size.x), int(size.y));
+    const std::optional<Hit> hit = seen_from(scene, s.world.caster, ray.origin, ray.direction);
     return hit ? scene.objects[scene.triangle_objects[hit->triangle]].light : -1;
 }
 

@@ -28,8 +28,8 @@ std::string quoted(const std::string& text) {
 /// What the picture shows at a pixel.
 std::optional<Hit> hit_at(const Session& s, vec2 pixel, vec2 size) {
     const Camera camera = camera_of(s.walker, s.yfov, s.near);
-    const vec3 direction = camera_direction(camera, pixel.x, pixel.y, int(size.x), int(size.y));
-    return seen_from(s.world.scene, s.world.caster, camera_origin(camera, direction), direction);
+    const CameraRay ray = camera_ray(camera, pixel.x, pixel.y, int(size.x), int(size.y));
+    return seen_from(s.world.scene, s.world.caster, ray.origin, ray.direction);
 }
 
 void check_is_light(const Measurement& m, size_t pin) {
@@ -47,11 +47,9 @@ void write_table(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 void measure_again(Session& s, const PhotonMap& map, bool all) {
-    const Camera camera = camera_of(s.walker, s.yfov, s.near);
     s.metering.live.reset();
     if (s.metering.on)
-        if (const auto hit = seen_from(s.world.scene, s.world.caster, camera.position, -camera.rotation[2]))
-            s.metering.live = measured(s, map, *hit, camera.position);
+        if (const auto hit = hit_at(s, vec2(0.5f), vec2(1))) s.metering.live = measured(s, map, *hit, s.walker.eye);
     if (all)
         for (Pin& pin : s.metering.pins) pin = measured(s, map, pin.hit, pin.viewer);
 }

@@ -59,12 +59,12 @@ std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster
     std::vector<double> lux(size_t(width) * size_t(height), 0);
     parallel_for(size_t(height), [&](size_t y) {
         for (int x = 0; x < width; ++x) {
-            const vec3 direction = camera_direction(camera, float(x) + 0.5f, float(y) + 0.5f, width, height);
-            const auto hit = caster.nearest(camera_origin(camera, direction), direction);
+            const CameraRay ray = camera_ray(camera, float(x) + 0.5f, float(y) + 0.5f, width, height);
+            const auto hit = caster.nearest(ray.origin, ray.direction);
             if (!hit) continue;
             const size_t pixel = y * size_t(width) + size_t(x);
             lux[pixel] = double(
-                luminance(estimator.estimate(hit->triangle, hit->barycentrics, -direction, uint(pixel)).irradiance));
+                luminance(estimator.estimate(hit->triangle, hit->barycentrics, -ray.direction, uint(pixel)).irradiance));
         }
     });
     return lux;

@@ -59,8 +59,9 @@ vec3 camera_direction(const Camera& camera, float x, float y, int width, int hei
     return normalize(camera.rotation * vec3(right, up, -1));
 }
 
-vec3 camera_origin(const Camera& camera, vec3 direction) {
-    return camera.position + direction * (camera.near / -dot(direction, camera.rotation[2]));
+CameraRay camera_ray(const Camera& camera, float x, float y, int width, int height) {
+    const vec3 direction = camera_direction(camera, x, y, width, height);
+    return {camera.position + direction * (camera.near / -dot(direction, camera.rotation[2])), direction};
 }
 
 std::vector<vec3> parse_powers(const Scene& scene, const std::vector<std::string>& texts) {

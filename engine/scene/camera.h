@@ -12,8 +12,11 @@ const Camera& find_camera(const Scene& scene, const std::string& name);
 /// Unit direction through pixel position (x, y), in pixels from the top left corner; pixel centres at .5.
 vec3 camera_direction(const Camera& camera, float x, float y, int width, int height);
 
-/// Where the ray in a unit direction leaves the near plane of the camera: nothing before it is seen (glTF 2.0, znear).
-vec3 camera_origin(const Camera& camera, vec3 direction);
+/// What a pixel position sees lies on this ray, which begins at the near plane (glTF 2.0, znear).
+struct CameraRay {
+    vec3 origin, direction;
+};
+CameraRay camera_ray(const Camera& camera, float x, float y, int width, int height);
 
 /// Factor per lamp and colour from "NAME=FACTOR" texts, 1 where none is given, or "NAME=FACTOR@KELVIN", which gives the
 /// lamp the colour of a black body too. Throws Error for an unknown lamp, a factor that is not a finite number >= 0, or

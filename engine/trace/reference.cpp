@@ -28,7 +28,7 @@ struct PixelSum {
 
 /// What every sample of a pixel sees first; pixel centres, so it is found once.
 struct FirstHit {
-    vec3 origin, direction;
+    CameraRay ray;
     std::optional<Hit> hit;
     Surface surface;
     vec3 normal;  // geometric, to the viewer
@@ -52,7 +52,7 @@ void write_first_hits(const std::vector<FirstHit>& first, const Camera& camera, 
     auto& triangle = image.add("triangle", -1);
     for (size_t i = 0; i < first.size(); ++i) {
         if (!first[i].hit) continue;
-        depth[i] = camera.near - dot(first[i].direction, camera.rotation[2]) * first[i].hit->distance;
+        depth[i] = camera.near - dot(first[i].ray.direction, camera.rotation[2]) * first[i].hit->distance;
         triangle[i] = float(first[i].hit->triangle);
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -112,13 +112,12 @@ Reference render_reference(const Scene& scene, const RayCaster& caster, const Ca
         count,
         [&](size_t i) {
             const auto x = float(i % size_t(settings.width)) + 0.5f, y = float(i / size_t(settings.width)) + 0.5f;
-            first[i].direction = camera_direction(camera, x, y, settings.width, settings.height);
-            first[i].origin = camera_origin(camera, first[i].direction);
-            first[i].hit = caster.nearest(first[i].origin, first[i].direction);
+            first[i].ray = camera_ray(camera, x, y, settings.width, settings.height);
+            first[i].hit = caster.nearest(first[i].ray.origin, first[i].ray.direction);
             if (!first[i].hit) return;
             first[i].surface = surfaces.surface_at(first[i].hit->triangle, first[i].hit->barycentrics);
             const vec3 ng = first[i].surface.geometric_normal;
-            first[i].normal = dot(ng, first[i].direction) > 0 ? -ng : ng;
+            first[i].normal = dot(ng, first[i].ray.direction) > 0 ? -ng : ng;
         },
         64);
 
@@ -139,7 +138,7 @@ Reference render_reference(const Scene& scene, const RayCaster& caster, const Ca
             for (size_t i = row * size_t(settings.width); i < (row + 1) * size_t(settings.width); ++i)
                 for (uint64_t n = result.samples; n < result.samples + pass; ++n) {
                     Rng rng(settings.seed, i, n);
-                    const vec3 radiance = tracer.radiance(first[i].origin, first[i].direction, rng, light);
+                    const vec3 radiance = tracer.radiance(first[i].ray.origin, first[i].ray.direction, rng, light);
                     double lux = 0;
                     if (settings.illuminance && first[i].hit)
                         lux = luminance(tracer.irradiance(first[i].surface.position, first[i].normal, rng, light));

@@ -132,6 +132,21 @@ TEST(Fields, TwoClicksInTheWindowMakeOneAndItsTablesAreSaved) {
     EXPECT_EQ(session.fields.fields.size(), 1u);
 }
 
+TEST(Pins, ReadNothingBeforeTheNearPlaneAsThePictureShowsNothing) {
+    const Cube cube;
+    const TempFolder folder;
+    Session session(cube.world, folder.path());
+    session.metering.on = true;
+    for (const float near : {0.01f, 20.0f}) {
+        session.near = near;
+        session.metering.pins.clear();
+        measure_again(session, *cube.map, false);
+        pin_at(session, *cube.map, {100, 100}, {640, 400});
+        EXPECT_EQ(session.metering.live.has_value(), near < 1);
+        EXPECT_EQ(session.metering.pins.size(), near < 1 ? 1u : 0u);
+    }
+}
+
 TEST(Pins, ThatReadNoLightAreNotSaved) {
     const Cube cube;
     const TempFolder folder;

@@ -36,7 +36,8 @@ struct SurfacePoint {
 
 std::optional<Hit> visible_hit(const RayCaster& caster, const ReferenceView& view, size_t pixel) {
     const float x = float(pixel % view.width) + 0.5f, y = float(pixel / view.width) + 0.5f;
-    return caster.nearest(view.camera.position, camera_direction(view.camera, x, y, int(view.width), int(view.height)));
+    const CameraRay ray = camera_ray(view.camera, x, y, int(view.width), int(view.height));
+    return caster.nearest(ray.origin, ray.direction);
 }
 
 std::optional<SurfacePoint> visible_point(const Scene& scene, const RayCaster& caster, const ReferenceView& view,

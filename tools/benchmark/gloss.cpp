@@ -95,9 +95,9 @@ std::vector<bool> Measured::caustic_pixels(const TimedFrame& frame) const {
     const SurfaceReader surfaces(baked_.scene);
     const Camera& camera = baked_.scene.cameras[0];
     for (size_t i = 0; i < lit.size(); ++i) {
-        const vec3 direction = camera_direction(camera, float(i % size_.width) + 0.5f, float(i / size_.width) + 0.5f,
-                                                int(size_.width), int(size_.height));
-        const auto hit = baked_.caster->nearest(camera.position, direction);
+        const auto [origin, direction] = camera_ray(camera, float(i % size_.width) + 0.5f,
+                                                    float(i / size_.width) + 0.5f, int(size_.width), int(size_.height));
+        const auto hit = baked_.caster->nearest(origin, direction);
         if (!hit) continue;
         const Surface s = surfaces.surface_at(hit->triangle, hit->barycentrics);
         if (casts_caustics(s)) continue;  // keeps none

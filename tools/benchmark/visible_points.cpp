@@ -9,9 +9,9 @@ std::vector<VisiblePoint> visible_points(const Scene& scene, const RayCaster& ca
     const SurfaceReader surfaces(scene);
     std::vector<VisiblePoint> points;
     for (uint pixel = 0; pixel < width * height; ++pixel) {
-        const vec3 direction =
-            camera_direction(camera, float(pixel % width) + 0.5f, float(pixel / width) + 0.5f, int(width), int(height));
-        const std::optional<Hit> hit = caster.nearest(camera.position, direction);
+        const auto [origin, direction] =
+            camera_ray(camera, float(pixel % width) + 0.5f, float(pixel / width) + 0.5f, int(width), int(height));
+        const std::optional<Hit> hit = caster.nearest(origin, direction);
         if (!hit) continue;
         const Surface s = surfaces.surface_at(hit->triangle, hit->barycentrics);
         const bool back = dot(s.geometric_normal, direction) > 0;
