@@ -104,6 +104,17 @@ TEST(Gloss, RoughWallsThatReflectMuchShowWhatThePathTracerShows) {
     expect_agreement(room, {"white"}, 0.03);  // the cached mode takes light between walls as coming from all sides alike
 }
 
+TEST(Gloss, RoughWallsThatReflectMuchUnderAPointLampToo) {
+    const Room room("cube.gltf",
+                    [](Scene& scene) {
+                        Material& grey = material_named(scene, "grey");
+                        grey.base_color = vec3(0.05f);
+                        grey.ior = 4, grey.roughness = 1, grey.specular = 1;
+                    },
+                    300000);
+    expect_agreement(room, {"grey"}, 0.02);
+}
+
 TEST(Gloss, AMetalRingAndAMirrorBallShowWhatThePathTracerShows) {
     const Room room("metal_sculpture.gltf", nullptr, 300000);
     expect_agreement(room, {"gold", "chrome"}, 0.02);
