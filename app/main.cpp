@@ -35,9 +35,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--device", o.walk.device.name, "part of the name of a Vulkan device; default: the fastest kind");
     app.add_option("--device-memory", o.device_memory_gb,
                    "GB of the device that scene and photons may take; default: what it has to give");
-    app.add_option("--rays", o.rays, lw::rays_help)
-        ->check(CLI::IsMember(lw::rays_names))
-        ->capture_default_str();
+    app.add_option("--rays", o.rays, lw::rays_help)->check(CLI::IsMember(lw::rays_names))->capture_default_str();
     app.add_option("--play", o.play.path, "replay this recorded walk without a window and end");
     app.add_option("--frames", o.play.frames, "with --play: folder for a PNG of every frame");
     app.add_option("--timings", o.play.timings, "with --play: CSV of the milliseconds of every frame and pass");
@@ -96,8 +94,7 @@ int main(int argc, char** argv) {
         options.walk.device.rays = lw::rays_named(options.rays);
         if (!options.size.empty()) {
             const lw::WantedSize size = lw::parse_picture_size(options.size, 16, 16384);
-            if (size.width == 0)
-                throw CLI::ValidationError("--size: must be WxH in pixels, from 16x16 to 16384x16384");
+            if (size.width == 0) throw CLI::ValidationError("--size: must be WxH in pixels, from 16x16 to 16384x16384");
             options.walk.size = vk::Extent2D(size.width, size.height);
         }
         if (app.count("--device-memory") > 0 && !(options.device_memory_gb >= 0.001 && options.device_memory_gb <= 1e6))

@@ -23,7 +23,8 @@ void draw_photometry_section(Session& session);
 void draw_lamp_marks(const Session& session);
 /// The edge between A and B, which the mouse can drag, and their names.
 void draw_split(Session& session);
-/// Outlines of bright reflections of lamps in the present view, with what mirrors which; a line while they are looked for.
+/// Outlines of bright reflections of lamps in the present view, with what mirrors which; a line while they are looked
+/// for.
 void draw_reflections(const Session& session, const ReflectionReport* report);
 /// All keys.
 void draw_keys();

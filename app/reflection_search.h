@@ -28,8 +28,8 @@ class ReflectionSearch {
     ReflectionSearch(const ReflectionSearch&) = delete;
     ReflectionSearch& operator=(const ReflectionSearch&) = delete;
 
-    /// What was found in this very view, once it is known; begins to look when it has stood still for a moment before `now`,
-    /// in seconds.
+    /// What was found in this very view, once it is known; begins to look when it has stood still for a moment before
+    /// `now`, in seconds.
     const ReflectionReport* report(const ReflectionView& view, double now);
 
   private:

@@ -1,6 +1,6 @@
-// The glTF 2.0 metallic-roughness BRDF (specification, appendix B.2-B.3) with KHR_materials_specular, _ior, _transmission
-// and _volume: reflection, thin sheets and refracting glass; single scattering, as the specification has it. One text for
-// C++ and GLSL; needs Surface, surface.glsl, its arrays and its constants.
+// The glTF 2.0 metallic-roughness BRDF (specification, appendix B.2-B.3) with KHR_materials_specular, _ior,
+// _transmission and _volume: reflection, thin sheets and refracting glass; single scattering, as the specification has
+// it. One text for C++ and GLSL; needs Surface, surface.glsl, its arrays and its constants.
 
 /// Fresnel reflectance at normal incidence of the dielectric base.
 vec3 dielectric_f0(Surface s) LW_MEMBER {
@@ -26,8 +26,8 @@ float schlick_weight(float cosine) LW_MEMBER {
     return m2 * m2 * m;
 }
 
-/// Fresnel reflectance of the dielectric met at `cosine`. From inside a volume Schlick's cosine is that of the refracted
-/// ray, so that both directions through a surface agree; beyond the critical angle everything is reflected.
+/// Fresnel reflectance of the dielectric met at `cosine`. From inside a volume Schlick's cosine is that of the
+/// refracted ray, so that both directions through a surface agree; beyond the critical angle everything is reflected.
 vec3 dielectric_fresnel(Surface s, float cosine, bool inside) LW_MEMBER {
     vec3 f0 = dielectric_f0(s);
     if (inside) cosine = refracted_cosine(cosine, s.ior);
@@ -160,10 +160,12 @@ vec3 eval_btdf(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
     float alpha = s.roughness * s.roughness;
     float nl = -dot(n, to_light);
     float nv = max(dot(n, to_view), 1e-4f);
-    if (nl <= 0.0f || s.transmission <= 0.0f || transmits_smoothly(s) || (s.flags & material_unlit) != 0u) return vec3(0.0f);
+    if (nl <= 0.0f || s.transmission <= 0.0f || transmits_smoothly(s) || (s.flags & material_unlit) != 0u)
+        return vec3(0.0f);
     if ((s.flags & material_thin) != 0u) {  // the reflection, turned to the other side
         vec3 h = normalize(to_view + to_light + 2.0f * nl * n);
-        return transmitted_part(s, clamp(dot(to_view, h), 0.0f, 1.0f), false) * ggx_d_v(alpha, clamp(dot(n, h), 0.0f, 1.0f), nl, nv);
+        return transmitted_part(s, clamp(dot(to_view, h), 0.0f, 1.0f), false) *
+               ggx_d_v(alpha, clamp(dot(n, h), 0.0f, 1.0f), nl, nv);
     }
     bool inside = dot(s.geometric_normal, to_view) < 0.0f;
     float eta_view = inside ? s.ior : 1.0f;
@@ -186,23 +188,25 @@ vec3 eval_bsdf(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
 /// Part of the light left after `distance` m in a medium of `absorption` 1/m (Beer-Lambert).
 vec3 passed_by_medium(vec3 absorption, float distance) LW_MEMBER { return exp(-absorption * distance); }
 
-/// Fraction of light that a crossed triangle lets pass straight on: holes, and thin smooth sheets. The rest is reflected,
-/// scattered or refracted, which is the photons' and the paths' business.
+/// Fraction of light that a crossed triangle lets pass straight on: holes, and thin smooth sheets. The rest is
+/// reflected, scattered or refracted, which is the photons' and the paths' business.
 vec3 passed_by(uint triangle, vec2 barycentrics, vec3 direction) LW_MEMBER {
     Surface s = surface_at(triangle, barycentrics);
     vec3 passed = vec3(0.0f);
-    if (has_transmission && passes_straight(s)) passed = transmitted_part(s, max(abs(dot(s.normal, direction)), 1e-4f), false);
+    if (has_transmission && passes_straight(s))
+        passed = transmitted_part(s, max(abs(dot(s.normal, direction)), 1e-4f), false);
     return mix(vec3(1.0f), passed, opacity_at(triangle, s));
 }
 
-/// Directional albedo of the GGX lobe, the part of light from all sides alike that leaves at cosine `nv` to the normal, as
-/// F0 times x and Schlick's rise to 1 times y. Polynomials fitted to integrals of ggx_d_v: x + y to 0.03, to 0.02 of
+/// Directional albedo of the GGX lobe, the part of light from all sides alike that leaves at cosine `nv` to the normal,
+/// as F0 times x and Schlick's rise to 1 times y. Polynomials fitted to integrals of ggx_d_v: x + y to 0.03, to 0.02 of
 /// surfaces rougher than 0.7; y to 0.04 and 0.005.
 vec2 lobe_albedo(float roughness, float nv) LW_MEMBER {
     float r = roughness;
-    float lost = r * ((0.7f + nv * (-3.404f + nv * 3.086f)) +
-                      r * ((-1.479f + nv * (12.805f - nv * 14.306f)) +
-                           r * ((1.026f + nv * (-12.407f + nv * 18.13f)) + r * (-0.092f + nv * (4.066f - nv * 7.454f)))));
+    float lost =
+        r * ((0.7f + nv * (-3.404f + nv * 3.086f)) +
+             r * ((-1.479f + nv * (12.805f - nv * 14.306f)) +
+                  r * ((1.026f + nv * (-12.407f + nv * 18.13f)) + r * (-0.092f + nv * (4.066f - nv * 7.454f)))));
     float rise = (1.163f - 0.75f * nv) +
                  r * ((-2.95f + 17.54f * nv) +
                       r * ((1.296f - 51.378f * nv) + r * ((2.105f + 54.343f * nv) + r * (-1.581f - 19.724f * nv))));
@@ -210,8 +214,8 @@ vec2 lobe_albedo(float roughness, float nv) LW_MEMBER {
     return vec2(clamp(1.0f - lost - rise, 0.0f, 1.0f), rise);
 }
 
-/// The part of light from all sides alike that the diffuse lobe alone sends to the viewer, at cosine `nv` to the normal: what
-/// Fresnel's factor passes, averaged over the hemisphere (the mean of Schlick's weight, fitted to 0.0002).
+/// The part of light from all sides alike that the diffuse lobe alone sends to the viewer, at cosine `nv` to the
+/// normal: what Fresnel's factor passes, averaged over the hemisphere (the mean of Schlick's weight, fitted to 0.0002).
 vec3 diffuse_albedo_towards(Surface s, float nv) LW_MEMBER {
     if ((s.flags & material_unlit) != 0u) return vec3(0.0f);
     vec3 f0 = dielectric_f0(s);
@@ -221,7 +225,8 @@ vec3 diffuse_albedo_towards(Surface s, float nv) LW_MEMBER {
     return s.base_color * (passed * (1.0f - s.metallic) * (1.0f - s.transmission));
 }
 
-/// Directional albedo: the part of light from all sides alike that both lobes send to the viewer, at cosine `nv` to the normal.
+/// Directional albedo: the part of light from all sides alike that both lobes send to the viewer, at cosine `nv` to the
+/// normal.
 vec3 albedo_towards(Surface s, float nv) LW_MEMBER {
     if ((s.flags & material_unlit) != 0u) return vec3(0.0f);
     vec2 lobe = lobe_albedo(s.roughness, nv);

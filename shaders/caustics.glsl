@@ -1,10 +1,10 @@
 // Light that lamps send by mirrors and smooth glass alone, from grids of its own: gathered at
-// each point with a small bandwidth, so that it stays sharp; the cached mode finds smooth caustics in the light of its cells.
-// One text for C++ and GLSL; needs gather.glsl, the functions caustic_map_of, cell_word and the constants has_caustics,
-// has_smooth_caustics, has_visible_lamps, light_count.
+// each point with a small bandwidth, so that it stays sharp; the cached mode finds smooth caustics in the light of its
+// cells. One text for C++ and GLSL; needs gather.glsl, the functions caustic_map_of, cell_word and the constants
+// has_caustics, has_smooth_caustics, has_visible_lamps, light_count.
 
-/// Radius that holds caustic_neighbours photons, from the counts of a growing window of cells. Few photons make small grids of
-/// small cells: the window starts where it meets the grid and grows in proportion.
+/// Radius that holds caustic_neighbours photons, from the counts of a growing window of cells. Few photons make small
+/// grids of small cells: the window starts where it meets the grid and grows in proportion.
 float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
     ivec2 cell = cell_of(local, grid);
     ivec2 last = ivec2(int(grid.columns) - 1, int(grid.rows) - 1);
@@ -28,18 +28,20 @@ float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
         ring += max(ring / 8, 1);
     }
     if (count < 1.0f) return grid.radius;
-    return clamp(sqrt(caustic_neighbours * area / (lw_pi * count)), 0.02f * min(grid.cell_size, grid.radius), grid.radius);
+    return clamp(sqrt(caustic_neighbours * area / (lw_pi * count)), 0.02f * min(grid.cell_size, grid.radius),
+                 grid.radius);
 }
 
 /// The part of the caustics at a place that the light of its cell does not hold.
 float caustics_left(MapPlace at) LW_MEMBER {
-    if (!has_smooth_caustics || !has_visible_lamps || gather_mode != gather_mode_cached || at.map == no_map) return 1.0f;
+    if (!has_smooth_caustics || !has_visible_lamps || gather_mode != gather_mode_cached || at.map == no_map)
+        return 1.0f;
     return 1.0f - corners_set(cell_word(at.cell * cell_words(light_count, true)), at.f);
 }
 
 /// Adds the part `left` of the caustic light at a surface of `triangle` whose other light comes from the place `at`.
-void add_caustics(uint triangle, bool front, float left, MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
-                  LW_INOUT(Gathered) light) LW_MEMBER {
+void add_caustics(uint triangle, bool front, float left, MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading,
+                  vec3 to_view, LW_INOUT(Gathered) light) LW_MEMBER {
     uint own = left > 0.0f ? map_at(caustic_map_of(triangle, front), s.position) : no_map;
     if (own == no_map) return;
     SurfaceGrid grid = grid_at(own);

@@ -42,8 +42,9 @@ vec2 area_with(vec2 p, vec2 q, vec2 reach) {
     return p.x * q.y - p.y * q.x + vec2(-slack, slack);
 }
 
-/// Corners in pixels, in front of the near plane. False when there is no pixel centre in the triangle's box, or one side
-/// has all of those in the box beyond it. A side that ends far outside the picture leaves its triangle a box as large.
+/// Corners in pixels, in front of the near plane. False when there is no pixel centre in the triangle's box, or one
+/// side has all of those in the box beyond it. A side that ends far outside the picture leaves its triangle a box as
+/// large.
 bool may_cover_centre(vec2 p, vec2 q, vec2 r) {
     vec2 size = vec2(frame.width, frame.height), low = min(p, min(q, r)), high = max(p, max(q, r));
     if (any(lessThan(high, vec2(0.0f))) || any(greaterThan(low, size))) return false;

@@ -1,9 +1,10 @@
-// Exact direct light by shadow rays through the BVH: one ray for a point, spot or directional lamp, `shadow_rays` for an
-// emissive mesh; none where the cell knows what a lamp lights, all over or by a mask; with shadow_rays = 0 none at all, and
-// shadows as sharp as masks and lattice. One text for C++ and GLSL. The including scope provides what gather.glsl and
-// rays.glsl need, the array emitters, the functions light_at, light_weight, profile_value, cell_word, shadow_mask, and the
-// constants has_mesh_lamps, has_profiles, has_emissive_textures, has_visible_lamps, has_shadow_masks, has_smooth_caustics,
-// has_shadow_rays, has_followed, light_count, shadow_rays, lobe_paths (per pixel along a lobe), ray_epsilon, scene_size.
+// Exact direct light by shadow rays through the BVH: one ray for a point, spot or directional lamp, `shadow_rays` for
+// an emissive mesh; none where the cell knows what a lamp lights, all over or by a mask; with shadow_rays = 0 none at
+// all, and shadows as sharp as masks and lattice. One text for C++ and GLSL. The including scope provides what
+// gather.glsl and rays.glsl need, the array emitters, the functions light_at, light_weight, profile_value, cell_word,
+// shadow_mask, and the constants has_mesh_lamps, has_profiles, has_emissive_textures, has_visible_lamps,
+// has_shadow_masks, has_smooth_caustics, has_shadow_rays, has_followed, light_count, shadow_rays, lobe_paths (per pixel
+// along a lobe), ray_epsilon, scene_size.
 
 /// Light that would arrive at a point from one place of a lamp at unit intensity, if nothing stood between.
 struct LightSample {
@@ -51,7 +52,8 @@ uint pick_emitter(Light lamp, float u, LW_INOUT(float) within) LW_MEMBER {
     return emitters[low].triangle;
 }
 
-/// Solid-angle density with which a point of a mesh lamp is picked that is met from `distance` at `cosine` to its normal.
+/// Solid-angle density with which a point of a mesh lamp is picked that is met from `distance` at `cosine` to its
+/// normal.
 float point_pdf(Light lamp, float distance, float cosine) LW_MEMBER {
     float area = emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below;
     return distance * distance / (area * max(abs(cosine), 1e-6f));
@@ -115,12 +117,17 @@ float lit_part(uvec4 mask, vec2 f) LW_MEMBER {
 
 /// True when the 4 x 4 points around `f` in the cell are not all lit or all dark.
 bool is_edge(uvec4 mask, vec2 f) LW_MEMBER {
-    ivec2 base = ivec2(int(floor(f.x * float(shadow_mask_side) - 0.5f)), int(floor(f.y * float(shadow_mask_side) - 0.5f)));
+    ivec2 base =
+        ivec2(int(floor(f.x * float(shadow_mask_side) - 0.5f)), int(floor(f.y * float(shadow_mask_side) - 0.5f)));
     ivec2 first = ivec2(clamp(base.x - 1, 0, 7), clamp(base.y - 1, 0, 7));
     ivec2 last = ivec2(clamp(base.x + 2, 0, 7), clamp(base.y + 2, 0, 7));
     uint columns = ((2u << uint(last.x)) - (1u << uint(first.x))) * 0x01010101u;
-    uint low_rows = first.y > 3 ? 0u : (0xffffffffu << uint(8 * first.y)) & (last.y > 2 ? 0xffffffffu : (1u << uint(8 * last.y + 8)) - 1u);
-    uint high_rows = last.y < 4 ? 0u : (last.y > 6 ? 0xffffffffu : (1u << uint(8 * last.y - 24)) - 1u) & (first.y < 5 ? 0xffffffffu : 0xffffffffu << uint(8 * first.y - 32));
+    uint low_rows = first.y > 3 ? 0u
+                                : (0xffffffffu << uint(8 * first.y)) &
+                                      (last.y > 2 ? 0xffffffffu : (1u << uint(8 * last.y + 8)) - 1u);
+    uint high_rows = last.y < 4 ? 0u
+                                : (last.y > 6 ? 0xffffffffu : (1u << uint(8 * last.y - 24)) - 1u) &
+                                      (first.y < 5 ? 0xffffffffu : 0xffffffffu << uint(8 * first.y - 32));
     uint low = columns & low_rows;
     uint high = columns & high_rows;
     bool dark = (mask.x & low) == 0u && (mask.y & high) == 0u;
@@ -128,7 +135,8 @@ bool is_edge(uvec4 mask, vec2 f) LW_MEMBER {
     return !dark && !lit;
 }
 
-/// What a light sample counts beside a ray along the specular lobe that might meet the same lamp (power heuristic, Veach 1997).
+/// What a light sample counts beside a ray along the specular lobe that might meet the same lamp (power heuristic,
+/// Veach 1997).
 float share_of_sample(Surface s, vec3 n_shading, vec3 to_view, LightSample light) LW_MEMBER {
     float by_samples = float(max(shadow_rays, 1u)) * light.pdf;
     float by_ray = float(lobe_paths) * lobe_pdf(s, n_shading, to_view, light.to_light);
@@ -136,7 +144,8 @@ float share_of_sample(Surface s, vec3 n_shading, vec3 to_view, LightSample light
 }
 
 /// Light of a point or sun from behind a rough sheet or volume.
-vec3 transmitted_light(Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LightSample light, vec3 incoming) LW_MEMBER {
+vec3 transmitted_light(Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LightSample light,
+                       vec3 incoming) LW_MEMBER {
     vec3 f = eval_btdf(s, n_shading, to_view, light.to_light) * max(-dot(n_shading, light.to_light), 0.0f);
     if (has_shadow_rays && max(f.x, max(f.y, f.z)) > 0.0f)
         f *= shadow_ray(s.position - n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
@@ -164,8 +173,8 @@ Sight sight_of(uint bits, uint mask, vec2 f, Surface s) LW_MEMBER {
     return sight;
 }
 
-/// Which points of mesh lamps are looked at: elements of the R2 sequence (Roberts 2018), shifted by `seed` (Cranley & Patterson
-/// 1976). Another round goes on where the one before it ended.
+/// Which points of mesh lamps are looked at: elements of the R2 sequence (Roberts 2018), shifted by `seed` (Cranley &
+/// Patterson 1976). Another round goes on where the one before it ended.
 struct LampPoints {
     uint seed;
     uint round;
@@ -204,7 +213,8 @@ void add_lamp(uint i, Sight sight, Surface s, vec3 n_geometric, vec3 n_shading, 
             sum.radiance += transmitted_light(s, n_geometric, n_shading, to_view, light, incoming);
         if (cos_geometric <= 0.0f || max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) continue;
         if (has_shadow_rays && sight.by_rays)
-            incoming *= shadow_ray(s.position + n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
+            incoming *=
+                shadow_ray(s.position + n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
         BrdfParts f = brdf_parts(s, n_shading, to_view, light.to_light);
         if (beside_rays) f.specular *= share_of_sample(s, n_shading, to_view, light);
         if (sight.in_cell) f.diffuse = vec3(0.0f);
@@ -223,8 +233,8 @@ uint lamp_bits(MapPlace at, uint word) LW_MEMBER {
 /// True for a lobe, neither mirror nor wide, whose reflection of mesh lamps is sampled at the lamps too.
 bool samples_lobe(Surface s) LW_MEMBER { return leaves_lobe_out(s) && s.roughness * s.roughness >= smallest_alpha; }
 
-/// One bit per lamp of a word of a cell, at its lowest: set for those of a pair that a pixel has to add. Hidden ones are
-/// skipped, and in the cached mode those that the light of the cell holds, unless a lobe is to show them.
+/// One bit per lamp of a word of a cell, at its lowest: set for those of a pair that a pixel has to add. Hidden ones
+/// are skipped, and in the cached mode those that the light of the cell holds, unless a lobe is to show them.
 uint lamps_to_add(uint bits, uint pair, Surface s) LW_MEMBER {
     uint skipped = (bits >> 1) & ~bits;
     if (shows_points_behind(s)) skipped = 0u;

@@ -1,8 +1,8 @@
-// View paths that go on from what the eye sees: along specular lobes too narrow for photons, through glass and blends, by way
-// of mirrors, to the surface where light is gathered. Conventions are those of trace/path_tracer: Heitz's visible normals, one
-// Fresnel factor for both sides, absorption in volumes, alpha by chance. One text for C++ and GLSL; needs followed.h, shade.glsl,
-// rays.glsl
-// and the constants has_followed, looks_through, followed_roughness. Loops are bounded: some devices end long ones without a word.
+// View paths that go on from what the eye sees: along specular lobes too narrow for photons, through glass and blends,
+// by way of mirrors, to the surface where light is gathered. Conventions are those of trace/path_tracer: Heitz's
+// visible normals, one Fresnel factor for both sides, absorption in volumes, alpha by chance. One text for C++ and
+// GLSL; needs followed.h, shade.glsl, rays.glsl and the constants has_followed, looks_through, followed_roughness.
+// Loops are bounded: some devices end long ones without a word.
 
 /// A ray on its way, and what the light it meets counts.
 struct ViewRay {
@@ -26,25 +26,30 @@ struct PathNumbers {
 PathNumbers path_numbers(uvec2 pixel, Following following, uint sample_index) LW_MEMBER {
     PathNumbers numbers;
     numbers.shift = vec2(float((pixel.x + 2u * pixel.y) & 3u), float((pixel.y + 2u * pixel.x) & 3u)) / 4.0f;
-    numbers.seed = hash_uint(pixel.x / 4u + 4096u * (pixel.y / 4u) + 0x01000193u * (following.branch + 2u * following.depth));
+    numbers.seed =
+        hash_uint(pixel.x / 4u + 4096u * (pixel.y / 4u) + 0x01000193u * (following.branch + 2u * following.depth));
     numbers.index = sample_index * following.paths + following.path;
-    numbers.random = hash_uint(numbers.seed + hash_uint(numbers.index + 65536u * (4u * (pixel.x & 3u) + (pixel.y & 3u))));
+    numbers.random =
+        hash_uint(numbers.seed + hash_uint(numbers.index + 65536u * (4u * (pixel.x & 3u) + (pixel.y & 3u))));
     return numbers;
 }
 
-/// The points on mesh lamps at the end of a path: apart for each, as one sequence for the facets and the lamps beyond would pair
-/// them.
+/// The points on mesh lamps at the end of a path: apart for each, as one sequence for the facets and the lamps beyond
+/// would pair them.
 LampPoints points_at_end(uint seed, Following following) LW_MEMBER {
-    return first_points(hash_uint(seed + 0x9e3779b9u * (1u + following.branch + 2u * following.depth + 8u * following.path)));
+    return first_points(
+        hash_uint(seed + 0x9e3779b9u * (1u + following.branch + 2u * following.depth + 8u * following.path)));
 }
 
-/// For the facet of the surface before which `surface` others were met: stratified over the paths at the first one, random
-/// at the others, as the same sequence at two of them would pair their facets.
+/// For the facet of the surface before which `surface` others were met: stratified over the paths at the first one,
+/// random at the others, as the same sequence at two of them would pair their facets.
 vec2 lobe_numbers(PathNumbers numbers, uint surface) LW_MEMBER {
     bool stratified = surface == 0u;
     uint random = hash_uint(numbers.seed + 0x9e3779b9u * surface + (stratified ? 0u : numbers.random));
     vec2 start = vec2(float(random & 0xffffu), float(random >> 16)) / 65536.0f;
-    return !stratified ? start : fract(start + numbers.shift + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
+    return !stratified
+               ? start
+               : fract(start + numbers.shift + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
 }
 
 /// For the way on from a surface, in [0, 1): stratified at the first two.
@@ -109,7 +114,8 @@ ViewRay reflected_ray(Seen seen, vec3 medium, vec2 u) LW_MEMBER {
     float nl = dot(n, ray.direction);
     bool leaves = nl > 0.0f && dot(seen.n_geometric, ray.direction) > 0.0f;
     ray.origin = s.position + seen.n_geometric * ray_epsilon;
-    ray.weight = leaves ? specular_reflectance(s, max(vh, 1e-4f), is_inside(seen)) * unmasked_part(s, nl, nv) : vec3(0.0f);
+    ray.weight =
+        leaves ? specular_reflectance(s, max(vh, 1e-4f), is_inside(seen)) * unmasked_part(s, nl, nv) : vec3(0.0f);
     ray.medium = is_inside(seen) ? s.absorption : (refracts(s) ? vec3(0.0f) : medium);
     ray.pdf = lobe_pdf(s, n, seen.to_eye, ray.direction);
     ray.distance = 0.0f;
@@ -173,8 +179,10 @@ ViewRay ray_behind(Seen seen, PathNumbers numbers) LW_MEMBER {
     float sum = 1.0f - there + glass;
     bool past = choice_number(numbers, 0u) * sum < 1.0f - there;
     ViewRay ray = no_ray();
-    if (past) ray = straight_ray(seen, ray);
-    else ray = transmitted_ray(seen, ray, lobe_numbers(numbers, 0u));
+    if (past)
+        ray = straight_ray(seen, ray);
+    else
+        ray = transmitted_ray(seen, ray, lobe_numbers(numbers, 0u));
     ray.weight *= sum <= 0.0f ? 0.0f : (past ? sum : there * sum / max(glass, 1e-20f));
     return ray;
 }
@@ -213,7 +221,8 @@ float share_of_ray(Surface s, ViewRay ray) LW_MEMBER {
     if (!has_mesh_lamps || s.light < 0 || ray.pdf <= 0.0f) return 1.0f;
     Light lamp = light_at(uint(s.light));
     if (lamp.type != light_mesh) return 1.0f;
-    float by_samples = float(max(shadow_rays, 1u)) * point_pdf(lamp, ray.distance, dot(s.geometric_normal, ray.direction));
+    float by_samples =
+        float(max(shadow_rays, 1u)) * point_pdf(lamp, ray.distance, dot(s.geometric_normal, ray.direction));
     float by_rays = float(lobe_paths) * ray.pdf;
     return by_rays * by_rays / max(by_rays * by_rays + by_samples * by_samples, 1e-30f);
 }
@@ -237,7 +246,8 @@ PathEnd end_nowhere() LW_MEMBER {
 
 /// How likely a path goes on from a surface by each way, in sum 1, or all 0.
 struct Ways {
-    float here;  // not at all: the light of the diffuse lobe is gathered, and of small lamps, which no ray meets, by rough ones
+    float here;  // not at all: the light of the diffuse lobe is gathered, and of small lamps, which no ray meets, by
+                 // rough ones
     float reflected;
     float through;
 };
@@ -248,7 +258,8 @@ Ways ways_on(Seen seen, vec2 u) LW_MEMBER {
     float nv = max(dot(facet_normal(s, seen.n_shading, seen.to_eye, u), seen.to_eye), 1e-4f);
     vec3 fresnel = dielectric_fresnel(s, nv, is_inside(seen));
     Ways ways;
-    ways.here = largest(s.base_color) * max(passed_by_fresnel(fresnel), 0.0f) * (1.0f - s.transmission) * (1.0f - s.metallic);
+    ways.here =
+        largest(s.base_color) * max(passed_by_fresnel(fresnel), 0.0f) * (1.0f - s.transmission) * (1.0f - s.metallic);
     ways.reflected = largest(specular_reflectance(s, nv, is_inside(seen)));
     ways.through = has_transmission ? largest(transmitted_part(s, nv, is_inside(seen))) : 0.0f;
     if (has_direct && s.roughness * s.roughness >= smallest_alpha)
@@ -260,8 +271,8 @@ Ways ways_on(Seen seen, vec2 u) LW_MEMBER {
     return ways;
 }
 
-/// Follows a ray by way of mirrors, glass and holes to the first surface that shows light of its own lobes. `last`: no path
-/// goes on from there.
+/// Follows a ray by way of mirrors, glass and holes to the first surface that shows light of its own lobes. `last`: no
+/// path goes on from there.
 PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
     PathEnd end = end_nowhere();
     for (uint met = 1u; met <= most_followed_surfaces; ++met) {
@@ -352,12 +363,14 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
     }
 }
 
-/// All light towards `eye` from (triangle, barycentrics), seen in `pixel`; illuminance, bandwidth and photons are of that place.
+/// All light towards `eye` from (triangle, barycentrics), seen in `pixel`; illuminance, bandwidth and photons are of
+/// that place.
 Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed, uvec2 pixel) LW_MEMBER {
     Seen seen = marked(see(triangle, barycentrics, eye));
     Gathered light = estimate_at(seen);
     light.radiance += own_radiance(seen.surface, seen.front);
-    for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair) add_rays(seen, pair, first_points(seed), light);
+    for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
+        add_rays(seen, pair, first_points(seed), light);
     light.radiance *= shown_part(seen);
     if (is_looked_through(seen)) light.irradiance = vec3(0.0f);
     for (uint branch = 0u; has_followed && branch < branch_count; ++branch)

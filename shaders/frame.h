@@ -10,15 +10,15 @@
 namespace lw {
 #endif
 
-// Set 0. Arrays read at random are texel buffers, records whole texels: a software rasterizer fetches four words of a texel
-// in the time of one word of a storage buffer. Corners are three per triangle, without indices.
+// Set 0. Arrays read at random are texel buffers, records whole texels: a software rasterizer fetches four words of a
+// texel in the time of one word of a storage buffer. Corners are three per triangle, without indices.
 LW_CONST uint binding_corners = 0u;    // RGBA32F twice: position and u, normal and v of the first texture coordinates
 LW_CONST uint binding_triangles = 1u;  // RGBA32: map of the front, of the back, material, light or -1
-LW_CONST uint binding_uv1 = 2u;  // RG32F per corner
-LW_CONST uint binding_colors = 3u;    // RGBA32F per corner
-LW_CONST uint binding_tangents = 4u;  // RGBA32F per corner
-LW_CONST uint binding_texels = 5u;    // RGBA8
-LW_CONST uint binding_grids = 6u;     // RGBA32, SurfaceGrid
+LW_CONST uint binding_uv1 = 2u;        // RG32F per corner
+LW_CONST uint binding_colors = 3u;     // RGBA32F per corner
+LW_CONST uint binding_tangents = 4u;   // RGBA32F per corner
+LW_CONST uint binding_texels = 5u;     // RGBA8
+LW_CONST uint binding_grids = 6u;      // RGBA32, SurfaceGrid
 LW_CONST uint binding_cell_starts = 7u;
 LW_CONST uint binding_places = 8u;  // RG32, PhotonPlace
 LW_CONST uint binding_fluxes = 9u;
@@ -28,11 +28,11 @@ LW_CONST uint binding_cell_light = 12u;  // RGBA32
 LW_CONST uint binding_cell_words = 13u;
 LW_CONST uint binding_bvh_nodes = 14u;  // RGBA32, BvhNode
 LW_CONST uint binding_bvh_triangles = 15u;
-LW_CONST uint binding_looks = 16u;  // RGBA32, look_texels for each Material
-LW_CONST uint binding_lamp_powers = 17u;  // RGBA32F, LampPower
+LW_CONST uint binding_looks = 16u;         // RGBA32, look_texels for each Material
+LW_CONST uint binding_lamp_powers = 17u;   // RGBA32F, LampPower
 LW_CONST uint binding_caustic_maps = 18u;  // RG32 per triangle: map of the front, of the back; empty without caustics
 LW_CONST uint binding_shadow_masks = 19u;  // RGBA32
-LW_CONST uint binding_textures = 20u;  // RGBA32, texture_texels for each
+LW_CONST uint binding_textures = 20u;      // RGBA32, texture_texels for each
 LW_CONST uint texel_binding_count = 21u;
 LW_CONST uint binding_lights = 21u;  // from here on storage buffers
 LW_CONST uint binding_emitters = 22u;
@@ -49,7 +49,7 @@ LW_CONST uint binding_radiance = 1u;
 LW_CONST uint binding_ray_lists = 2u;
 LW_CONST uint binding_ray_pixels = 3u;
 LW_CONST uint binding_screen = 4u;
-LW_CONST uint binding_light = 5u;  // the radiance buffer as texels
+LW_CONST uint binding_light = 5u;     // the radiance buffer as texels
 LW_CONST uint binding_followed = 6u;  // Followed per pixel
 
 LW_CONST uint constant_has_uv0 = 0u;
@@ -78,27 +78,29 @@ LW_CONST uint constant_has_caustics = 22u;
 LW_CONST uint constant_has_profiles = 23u;
 LW_CONST uint constant_has_smooth_caustics = 24u;
 LW_CONST uint constant_has_shadow_masks = 25u;
-LW_CONST uint constant_looks_through = 26u;  // glass and blends are surfaces of the view, what is behind them is followed
+LW_CONST uint constant_looks_through =
+    26u;  // glass and blends are surfaces of the view, what is behind them is followed
 LW_CONST uint constant_followed_roughness = 27u;  // bits of a float: lobes of smoother surfaces are followed
-LW_CONST uint constant_of_followed = 28u;  // photons and rays at the ends of followed paths
-LW_CONST uint constant_first_cut = 29u;  // first of the cuts among the grids, no_map without any
-LW_CONST uint constant_first_caustic_map = 30u;  // grids from here on are of caustics
+LW_CONST uint constant_of_followed = 28u;         // photons and rays at the ends of followed paths
+LW_CONST uint constant_first_cut = 29u;           // first of the cuts among the grids, no_map without any
+LW_CONST uint constant_first_caustic_map = 30u;   // grids from here on are of caustics
 LW_CONST uint constant_first_caustic_cut = 31u;
-LW_CONST uint constant_first_see_through = 32u;  // with ray queries: first of the triangles that may let light through, or no_map
+LW_CONST uint constant_first_see_through =
+    32u;  // with ray queries: first of the triangles that may let light through, or no_map
 LW_CONST uint constant_first_listed = 33u;  // where the triangles of a draw begin in the list (cull.h)
 LW_CONST uint constant_pixel_margin = 34u;  // bits of a float: pixels by which a triangle may reach beyond its box
 LW_CONST uint constant_count = 35u;
 
-/// The dispatches of the gather: photons at all pixels, then rays at those that need any; where view paths go on, a dispatch
-/// that follows them, and photons and rays at their ends.
+/// The dispatches of the gather: photons at all pixels, then rays at those that need any; where view paths go on, a
+/// dispatch that follows them, and photons and rays at their ends.
 LW_CONST uint stage_photons = 0u;
 LW_CONST uint stage_rays = 1u;
 LW_CONST uint stage_follow = 2u;
 LW_CONST uint gather_group_side = 8u;  // pixels
 
-/// The arguments of the dispatch for rays to a pair of lamps; its pixels are listed from pair * pixels of the picture on.
-/// A dispatch for each pair: Mesa's software rasterizer ends all loops of an invocation after 65,535 rounds in sum, without
-/// a word, and rays to many lamps get there.
+/// The arguments of the dispatch for rays to a pair of lamps; its pixels are listed from pair * pixels of the picture
+/// on. A dispatch for each pair: Mesa's software rasterizer ends all loops of an invocation after 65,535 rounds in sum,
+/// without a word, and rays to many lamps get there.
 struct RayPixels {
     uint groups_x;
     uint groups_y;
@@ -106,11 +108,13 @@ struct RayPixels {
     uint count;
 };
 
-/// Triangles drawn as one instance. Few, because a rasterizer on the CPU walks all vertices of an instance again and again.
+/// Triangles drawn as one instance. Few, because a rasterizer on the CPU walks all vertices of an instance again and
+/// again.
 LW_CONST uint cluster_triangles = 64u;
 LW_CONST uint no_triangle = 0xffffffffu;
 
-/// What the user can dim and tint: photons of the light count `weight` (intensity x factor), its own glow `factor`. Two texels.
+/// What the user can dim and tint: photons of the light count `weight` (intensity x factor), its own glow `factor`. Two
+/// texels.
 struct LampPower {
     vec4 weight;  // RGB
     vec4 factor;  // RGB
@@ -137,7 +141,7 @@ struct Frame {
     float scene_size;     // m, beyond which nothing stands
     uint shadow_rays;     // per emissive mesh
     float inverse_irradiance_scale;
-    uint ray_pair;  // of lamps that rays are traced to
+    uint ray_pair;   // of lamps that rays are traced to
     uint following;  // pack_following()
 };
 

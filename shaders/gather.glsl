@@ -1,8 +1,8 @@
 // Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
 // The including scope provides the functions grid_at, is_cut (false for no_map), cell_start, photon_place, photon_flux,
-// photon_direction, light_weight, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode, neighbours,
-// heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage, has_followed. Needs
-// photon_map.h and bsdf.glsl.
+// photon_direction, light_weight, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode,
+// neighbours, heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage,
+// has_followed. Needs photon_map.h and bsdf.glsl.
 
 Gathered no_light() LW_MEMBER {
     Gathered nothing;
@@ -13,7 +13,8 @@ Gathered no_light() LW_MEMBER {
     return nothing;
 }
 
-/// True for a photon that no followed ray can stand for: a ray may meet a mirrored mesh lamp, but no mirrored point or sun.
+/// True for a photon that no followed ray can stand for: a ray may meet a mirrored mesh lamp, but no mirrored point or
+/// sun.
 bool is_unseen_by_rays(Surface s, PhotonPlace photon) LW_MEMBER {
     if (!has_caustics || path_of(photon) != path_caustic || s.roughness * s.roughness < smallest_alpha) return false;
     return light_at(light_of(photon)).type != light_mesh;
@@ -63,16 +64,18 @@ bool covers_grid(SurfaceGrid grid, ivec2 cell, int ring) LW_MEMBER {
            cell.y + ring >= int(grid.rows) - 1;
 }
 
-/// The first ring of cells around `cell` that meets the grid. Few photons make small grids of small cells: rings that are
-/// empty for certain cost nothing.
+/// The first ring of cells around `cell` that meets the grid. Few photons make small grids of small cells: rings that
+/// are empty for certain cost nothing.
 int first_ring(SurfaceGrid grid, ivec2 cell) LW_MEMBER {
     ivec2 beyond = max(-cell, cell - ivec2(int(grid.columns) - 1, int(grid.rows) - 1));
     return max(max(beyond.x, beyond.y), 0);
 }
 
 /// Exact k nearest photons with a bounded max-heap, nearest cells first; sum over the k-1 nearer ones / (pi r_k^2),
-/// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside the map's radius: all of them over its disc.
-Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
+/// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside the map's radius: all of them over its
+/// disc.
+Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading,
+                      vec3 to_view) LW_MEMBER {
     float heap_distance[heap_size];
     uint heap_photon[heap_size];
     uint k = min(neighbours, heap_size);
@@ -114,7 +117,8 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
                 if (whole_row) break;
             }
         }
-        float left = min(local.x - float(cell.x - ring) * grid.cell_size, local.y - float(cell.y - ring) * grid.cell_size);
+        float left =
+            min(local.x - float(cell.x - ring) * grid.cell_size, local.y - float(cell.y - ring) * grid.cell_size);
         float right = min(float(cell.x + ring + 1) * grid.cell_size - local.x,
                           float(cell.y + ring + 1) * grid.cell_size - local.y);
         float reached = max(min(left, right), 0.0f);
@@ -155,11 +159,13 @@ float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
         if (count >= wanted || covers_grid(grid, cell, ring)) break;
     }
     if (count < wanted) return grid.radius;  // the grid ends where its photons do: their area says nothing
-    return clamp(sqrt(float(neighbours) * area / (lw_pi * count)), min(0.5f * grid.cell_size, grid.radius), grid.radius);
+    return clamp(sqrt(float(neighbours) * area / (lw_pi * count)), min(0.5f * grid.cell_size, grid.radius),
+                 grid.radius);
 }
 
 /// One pass with an Epanechnikov kernel 2 / (pi r^2) (1 - d^2 / r^2) (Silverman 1986), no heap.
-Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
+Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading,
+                       vec3 to_view) LW_MEMBER {
     Gathered nothing = no_light();
     Gathered sum = nothing;
     sum.radius = bandwidth_from_counts(grid, local);
@@ -239,13 +245,15 @@ float coverage_at(MapPlace at, float radius) LW_MEMBER {
     float fraction = radius / at.grid.radius;
     uint node = at.cell;
     uint above = node + at.grid.lattice.columns;
-    float low = mix(unpack_coverage(node_coverage(node), fraction), unpack_coverage(node_coverage(node + 1u), fraction), at.f.x);
-    float high = mix(unpack_coverage(node_coverage(above), fraction), unpack_coverage(node_coverage(above + 1u), fraction), at.f.x);
+    float low = mix(unpack_coverage(node_coverage(node), fraction), unpack_coverage(node_coverage(node + 1u), fraction),
+                    at.f.x);
+    float high = mix(unpack_coverage(node_coverage(above), fraction),
+                     unpack_coverage(node_coverage(above + 1u), fraction), at.f.x);
     return max(mix(low, high, at.f.y), least_coverage);
 }
 
-/// The irradiance computed ahead at the corners of the cell, all lamps at their present power; light from all sides alike
-/// for the BRDF.
+/// The irradiance computed ahead at the corners of the cell, all lamps at their present power; light from all sides
+/// alike for the BRDF.
 Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
     uvec4 corners = cell_light(at.cell);
     vec3 low = mix(unpack_rgb9e5(corners.x), unpack_rgb9e5(corners.y), at.f.x);
@@ -254,7 +262,8 @@ Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_
     sum.irradiance = mix(low, high, at.f.y) * inverse_irradiance_scale;
     float nv = max(dot(n_shading, to_view), 0.0f);
     if (has_directions)
-        sum.radiance = sum.irradiance * (leaves_lobe_out(s) ? diffuse_albedo_towards(s, nv) : albedo_towards(s, nv)) / lw_pi;
+        sum.radiance =
+            sum.irradiance * (leaves_lobe_out(s) ? diffuse_albedo_towards(s, nv) : albedo_towards(s, nv)) / lw_pi;
     else
         sum.radiance = sum.irradiance * eval_brdf(s, n_shading, to_view, n_shading, true);
     sum.radius = 0.0f;

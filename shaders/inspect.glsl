@@ -1,8 +1,8 @@
-// What an estimate stands on, for the views that show it: bandwidth, photons, noise, the photons themselves. One text for
-// C++ and GLSL; needs shade.glsl.
+// What an estimate stands on, for the views that show it: bandwidth, photons, noise, the photons themselves. One text
+// for C++ and GLSL; needs shade.glsl.
 
-/// `bandwidth` m and `photons` of the smooth estimate, the standard error of the illuminance relative to it (reflected light
-/// varies with its photons, direct light does not), and 1 + the lamp of a photon nearby, 0 where none lies.
+/// `bandwidth` m and `photons` of the smooth estimate, the standard error of the illuminance relative to it (reflected
+/// light varies with its photons, direct light does not), and 1 + the lamp of a photon nearby, 0 where none lies.
 struct Inspected {
     float bandwidth;
     float photons;
@@ -60,7 +60,8 @@ Inspected inspect(Seen seen, float dot_reach, uint seed) LW_MEMBER {
     float coverage = has_coverage ? coverage_at(seen.at, radius) : 1.0f;
     Gathered direct = no_light();
     for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
-        add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_geometric, seen.to_eye, first_points(seed), direct);
+        add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_geometric, seen.to_eye, first_points(seed),
+                   direct);
     float total = sum / coverage + dot(direct.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
     result.bandwidth = radius;
     result.relative_error = total > 0.0f ? sqrt(squares) / coverage / total : 0.0f;

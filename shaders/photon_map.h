@@ -7,9 +7,9 @@ namespace lw {
 #endif
 
 LW_CONST uint no_map = 0xffffffffu;
-LW_CONST uint path_direct = 0u;    // no bounce before this hit
-LW_CONST uint path_indirect = 1u;  // at least one diffuse or glossy bounce
-LW_CONST uint path_caustic = 2u;   // specular bounces only
+LW_CONST uint path_direct = 0u;      // no bounce before this hit
+LW_CONST uint path_indirect = 1u;    // at least one diffuse or glossy bounce
+LW_CONST uint path_caustic = 2u;     // specular bounces only
 LW_CONST uint light_mask = 0x3fffu;  // low 14 bits of light_and_path
 LW_CONST uint path_shift = 14u;
 
@@ -25,9 +25,9 @@ struct SurfaceLattice {
 
 /// The 2D uniform grid of one map: a triangle, or a patch of small triangles of like orientation, seen from one side.
 /// Cell (i, j) is cell_starts[first_cell + j * columns + i], its end the next entry.
-/// Where walls stand on a surface, its map is cut along them: a record without columns is a cut, a plane through the origin
-/// with this normal. What lies on the side of the normal belongs to record `rows`, the rest to `first_cell`: a map, a cut
-/// further on, or no_map.
+/// Where walls stand on a surface, its map is cut along them: a record without columns is a cut, a plane through the
+/// origin with this normal. What lies on the side of the normal belongs to record `rows`, the rest to `first_cell`: a
+/// map, a cut further on, or no_map.
 struct SurfaceGrid {
     vec3 origin;      // corner of the grid; position = origin + u u_axis + v v_axis + h normal
     float cell_size;  // m
@@ -35,11 +35,11 @@ struct SurfaceGrid {
     uint columns;
     vec3 v_axis;
     uint rows;
-    vec3 normal;       // oriented to the lit side
+    vec3 normal;  // oriented to the lit side
     uint first_cell;
-    vec3 quantum;      // metres per step of the 16-bit u, v, h of its records
-    float h_origin;    // height of step 0 along the normal
-    float radius;      // largest search radius of this map, m
+    vec3 quantum;    // metres per step of the 16-bit u, v, h of its records
+    float h_origin;  // height of step 0 along the normal
+    float radius;    // largest search radius of this map, m
     SurfaceLattice lattice;
 };
 
@@ -74,8 +74,9 @@ LW_CONST uint corner_sees = 16u;  // << 0 to 3: corner (0, 0), (1, 0), (0, 1), (
 LW_CONST uint cell_lamps_per_word = 4u;
 LW_INLINE uint cell_lamp_words(uint lamps) { return (lamps + cell_lamps_per_word - 1u) / cell_lamps_per_word; }
 LW_CONST uint has_shadow_mask = 8u;
-/// Words of a cell in the array of what cells know: its marks, if any cell has some, then its lamps. Marks: the corners, in the
-/// order of corner_sees, whose light holds the caustics; above them the first of its shadow masks, in the order of lamps.
+/// Words of a cell in the array of what cells know: its marks, if any cell has some, then its lamps. Marks: the
+/// corners, in the order of corner_sees, whose light holds the caustics; above them the first of its shadow masks, in
+/// the order of lamps.
 LW_INLINE uint cell_words(uint lamps, bool has_marks) { return cell_lamp_words(lamps) + (has_marks ? 1u : 0u); }
 LW_CONST uint first_mask_shift = 4u;
 /// Rays are traced to two lamps at a time, the first or the last half of a word.
@@ -84,8 +85,8 @@ LW_INLINE uint ray_pairs(uint lamps) { return max((lamps + lamps_per_pair - 1u) 
 LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
 LW_INLINE uint cell_lamp_shift(uint lamp) { return 8u * (lamp % cell_lamps_per_word); }
 
-/// Which of 8 x 8 points of a cell a lamp lights: bit 8 j + i of (lit_low, lit_high), points at the middles of texels, and
-/// the light that reaches those, RGB9E5.
+/// Which of 8 x 8 points of a cell a lamp lights: bit 8 j + i of (lit_low, lit_high), points at the middles of texels,
+/// and the light that reaches those, RGB9E5.
 struct ShadowMask {
     uint cell;
     uint lamp;
@@ -105,9 +106,9 @@ struct PhotonPlace {
 LW_CONST float widest_followed_roughness = 0.75f;
 
 /// How photons become light.
-LW_CONST uint gather_mode_exact = 0u;   // the k nearest photons, with a heap: the paper's way
-LW_CONST uint gather_mode_smooth = 1u;  // bandwidth from cell counts, one pass with a smooth kernel
-LW_CONST uint gather_mode_cached = 2u;  // irradiance of the lattice nodes
+LW_CONST uint gather_mode_exact = 0u;    // the k nearest photons, with a heap: the paper's way
+LW_CONST uint gather_mode_smooth = 1u;   // bandwidth from cell counts, one pass with a smooth kernel
+LW_CONST uint gather_mode_cached = 2u;   // irradiance of the lattice nodes
 LW_CONST uint gather_mode_inspect = 3u;  // no light: what the smooth estimate stands on (shaders/inspect.glsl)
 
 /// Photons cannot resolve a narrower lobe: below this glTF roughness the highlight is widened, which keeps its energy
@@ -169,7 +170,8 @@ LW_INLINE vec3 unpack_direction(uint bits) {
 
 #ifdef __cplusplus
 static_assert(sizeof(SurfaceLattice) == 28 && sizeof(ShadowMask) == 20);
-static_assert(sizeof(SurfaceGrid) == 16 * surface_grid_texels && offsetof(SurfaceGrid, lattice) == 84 && sizeof(PhotonPlace) == 8);
+static_assert(sizeof(SurfaceGrid) == 16 * surface_grid_texels && offsetof(SurfaceGrid, lattice) == 84 &&
+              sizeof(PhotonPlace) == 8);
 }  // namespace lw
 #endif
 #endif

@@ -1,7 +1,7 @@
-// Light at what each pixel sees: the photons of the map on the visible side of the triangle, through the BRDF, direct light
-// by shadow rays, and the surface's own glow. Writes radiance (cd/m2) and illuminance (lux). A first dispatch looks at the
-// photons and lists the pixels that need rays for a second one: a processor that runs both sides of a branch pays for rays
-// only where there are any.
+// Light at what each pixel sees: the photons of the map on the visible side of the triangle, through the BRDF, direct
+// light by shadow rays, and the surface's own glow. Writes radiance (cd/m2) and illuminance (lux). A first dispatch
+// looks at the photons and lists the pixels that need rays for a second one: a processor that runs both sides of a
+// branch pays for rays only where there are any.
 #include "resident.glsl"
 
 layout(local_size_x = gather_group_side, local_size_y = gather_group_side) in;
@@ -44,16 +44,15 @@ layout(set = 1, binding = binding_ray_pixels, scalar) buffer ListedPixels { uint
 #define light_count uint(lights.length())
 
 // Constant indices only: the arrays of buffers need no dynamic indexing, and one chunk costs no branch.
-#define LW_RECORD(ARRAY, i)                                                                                    \
-    if (chunks == 1u) return texelFetch(ARRAY[0], int(i));                                                     \
-    int within = int(i & ((1u << chunk_shift) - 1u));                                                          \
-    uint chunk = i >> chunk_shift;                                                                             \
-    if (chunks > 3u && chunk == 3u) return texelFetch(ARRAY[3], within);                                       \
-    if (chunks > 2u && chunk == 2u) return texelFetch(ARRAY[2], within);                                       \
+#define LW_RECORD(ARRAY, i)                                              \
+    if (chunks == 1u) return texelFetch(ARRAY[0], int(i));               \
+    int within = int(i & ((1u << chunk_shift) - 1u));                    \
+    uint chunk = i >> chunk_shift;                                       \
+    if (chunks > 3u && chunk == 3u) return texelFetch(ARRAY[3], within); \
+    if (chunks > 2u && chunk == 2u) return texelFetch(ARRAY[2], within); \
     return chunk == 1u ? texelFetch(ARRAY[1], within) : texelFetch(ARRAY[0], within);
-uvec4 place_record(uint i) { LW_RECORD(places, i) }
-uvec4 flux_record(uint i) { LW_RECORD(fluxes, i) }
-uvec4 direction_record(uint i) { LW_RECORD(directions, i) }
+uvec4 place_record(uint i){LW_RECORD(places, i)} uvec4 flux_record(uint i){LW_RECORD(fluxes, i)} uvec4
+    direction_record(uint i){LW_RECORD(directions, i)}
 
 PhotonPlace photon_place(uint i) {
     uvec4 record = place_record(i);
@@ -231,7 +230,8 @@ void gather_followed(uint pixel) {
         list_for_light(pixel, seen);
     }
     float lux = (at.flags & followed_is_looked_at) != 0u ? luminance(light.irradiance) : 0.0f;
-    radiance_illuminance[pixel] += vec4(at.weight * light.radiance, lux) * (frame.sample_weight / float(following.paths));
+    radiance_illuminance[pixel] +=
+        vec4(at.weight * light.radiance, lux) * (frame.sample_weight / float(following.paths));
 }
 
 /// Photons or rays at what a pixel sees; lists the pixels from which paths go on.

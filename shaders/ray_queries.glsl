@@ -1,5 +1,5 @@
-// The rays of rays.glsl, traced by the device (GL_EXT_ray_query): geometry 0 is opaque, the triangles of geometry 1 may let
-// light through (gpu/acceleration). bvh_triangle_at gives the triangles of both, one after the other.
+// The rays of rays.glsl, traced by the device (GL_EXT_ray_query): geometry 0 is opaque, the triangles of geometry 1 may
+// let light through (gpu/acceleration). bvh_triangle_at gives the triangles of both, one after the other.
 
 bool any_see_through() { return first_see_through != no_map; }
 

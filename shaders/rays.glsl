@@ -1,6 +1,7 @@
-// Rays through the hierarchy of shaders/bvh.h: shadow rays and the nearest triangle. One text for C++ and GLSL; the including
-// scope provides what surface.glsl and bsdf.glsl need, the functions bvh_node_at, bvh_triangle_at and the constants
-// bvh_node_count, has_alpha, has_transmission. Nothing heavy inside the traversal: some devices run both sides of a branch.
+// Rays through the hierarchy of shaders/bvh.h: shadow rays and the nearest triangle. One text for C++ and GLSL; the
+// including scope provides what surface.glsl and bsdf.glsl need, the functions bvh_node_at, bvh_triangle_at and the
+// constants bvh_node_count, has_alpha, has_transmission. Nothing heavy inside the traversal: some devices run both
+// sides of a branch.
 
 /// True when a triangle is crossed by origin + t direction, 0 < t < far (Moeller & Trumbore 1997, edges included); sets
 /// `hit` to the weights of its second and third corner and t.

@@ -1,5 +1,5 @@
-// The scene and its map as the shaders find them in descriptor set 0 (frame.h, gather/resident): specialization constants,
-// arrays, and the functions by which the texts shared with C++ read them.
+// The scene and its map as the shaders find them in descriptor set 0 (frame.h, gather/resident): specialization
+// constants, arrays, and the functions by which the texts shared with C++ read them.
 #include "frame.h"
 
 layout(constant_id = constant_has_uv0) const bool has_uv0 = true;

@@ -18,7 +18,8 @@ LW_CONST uint material_unlit = 2u;         // shows base colour x 1 cd/m2, refle
 LW_CONST uint material_alpha_mask = 4u;
 LW_CONST uint material_alpha_blend = 8u;
 LW_CONST uint material_thin = 16u;  // transmission without refraction (no volume behind the surface)
-LW_CONST uint lobe_is_followed = 32u;  // of a Surface alone: rays bring what its specular lobe reflects, but for small lamps
+LW_CONST uint lobe_is_followed =
+    32u;  // of a Surface alone: rays bring what its specular lobe reflects, but for small lamps
 
 LW_CONST uint wrap_repeat = 0u;
 LW_CONST uint wrap_clamp = 1u;
@@ -82,7 +83,7 @@ struct Light {
     float cos_outer;
     uint first_emitter;  // range in the list of emissive triangles (mesh lights)
     uint emitter_count;
-    float area;  // m2 of emissive surface, both sides counted when double-sided
+    float area;    // m2 of emissive surface, both sides counted when double-sided
     vec3 across;   // unit, C0 of the table; `direction` is its aim (profile lights)
     uint profile;  // first word of the table in the array of texels, see profile.glsl
 };

@@ -37,14 +37,15 @@ Gathered estimate_at(Seen seen) LW_MEMBER {
     Gathered light = gather_photons(seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye);
     float left = has_caustics ? caustics_left(seen.at) : 0.0f;
     if (has_caustics && left > 0.0f)
-        add_caustics(seen.triangle, seen.front, left, seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye,
-                     light);
+        add_caustics(seen.triangle, seen.front, left, seen.at, seen.surface, seen.n_geometric, seen.n_shading,
+                     seen.to_eye, light);
     return light;
 }
 
 /// True when lamps of a pair have to be added to what the photons say.
 bool needs_rays(Seen seen, uint pair) LW_MEMBER {
-    return has_direct && lamps_to_add(lamp_bits(seen.at, cell_lamp_word(pair * lamps_per_pair)), pair, seen.surface) != 0u;
+    return has_direct &&
+           lamps_to_add(lamp_bits(seen.at, cell_lamp_word(pair * lamps_per_pair)), pair, seen.surface) != 0u;
 }
 
 /// Adds the lamps of one pair.

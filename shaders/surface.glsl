@@ -1,12 +1,12 @@
 // What lies at (triangle, barycentrics): position, normals and material parameters.
 // One text for C++ and GLSL. The including scope provides the functions corner_position, corner_normal, corner_uv0,
-// corner_uv1, corner_color, corner_tangent (triangle, 0 to 2), material_of, light_of_surface (triangle), texel_at, texture_at
-// and the constants has_uv0, has_uv1, has_colors, has_tangents, has_textures (any), has_metallic_roughness_textures,
-// has_emissive_textures, has_transmission_textures, has_alpha, has_transmission.
+// corner_uv1, corner_color, corner_tangent (triangle, 0 to 2), material_of, light_of_surface (triangle), texel_at,
+// texture_at and the constants has_uv0, has_uv1, has_colors, has_tangents, has_textures (any),
+// has_metallic_roughness_textures, has_emissive_textures, has_transmission_textures, has_alpha, has_transmission.
 
-/// An sRGB code in [0, 1] to its linear value (IEC 61966-2-1). The power 2.4 as t^2 times a polynomial in sqrt(t), fitted to a
-/// relative 5.8e-5, less than a hundredth of a step of 8 bits: twelve powers a look-up cost a fifth of a frame where they are
-/// computed.
+/// An sRGB code in [0, 1] to its linear value (IEC 61966-2-1). The power 2.4 as t^2 times a polynomial in sqrt(t),
+/// fitted to a relative 5.8e-5, less than a hundredth of a step of 8 bits: twelve powers a look-up cost a fifth of a
+/// frame where they are computed.
 float srgb_to_linear(float c) LW_MEMBER {
     float t = (c + 0.055f) / 1.055f;
     float s = sqrt(t);
@@ -90,8 +90,10 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
     if (has_textures) {
         vec2 first_uv = vec2(0.0f);
         vec2 second_uv = vec2(0.0f);
-        if (has_uv0) first_uv = b0 * corner_uv0(triangle, 0u) + b1 * corner_uv0(triangle, 1u) + b2 * corner_uv0(triangle, 2u);
-        if (has_uv1) second_uv = b0 * corner_uv1(triangle, 0u) + b1 * corner_uv1(triangle, 1u) + b2 * corner_uv1(triangle, 2u);
+        if (has_uv0)
+            first_uv = b0 * corner_uv0(triangle, 0u) + b1 * corner_uv0(triangle, 1u) + b2 * corner_uv0(triangle, 2u);
+        if (has_uv1)
+            second_uv = b0 * corner_uv1(triangle, 0u) + b1 * corner_uv1(triangle, 1u) + b2 * corner_uv1(triangle, 2u);
         if (m.base_color_texture.texture >= 0) {
             vec4 c = sample_texture(m.base_color_texture, first_uv, second_uv);
             s.base_color *= vec3(c.x, c.y, c.z);
@@ -110,8 +112,10 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
             s.transmission *= sample_texture(m.transmission_texture, first_uv, second_uv).x;
         if (has_tangents && m.normal_texture.texture >= 0) {
             vec4 c = sample_texture(m.normal_texture, first_uv, second_uv);
-            vec3 local = vec3((c.x * 2.0f - 1.0f) * m.normal_scale, (c.y * 2.0f - 1.0f) * m.normal_scale, c.z * 2.0f - 1.0f);
-            vec4 tangent4 = b0 * corner_tangent(triangle, 0u) + b1 * corner_tangent(triangle, 1u) + b2 * corner_tangent(triangle, 2u);
+            vec3 local =
+                vec3((c.x * 2.0f - 1.0f) * m.normal_scale, (c.y * 2.0f - 1.0f) * m.normal_scale, c.z * 2.0f - 1.0f);
+            vec4 tangent4 = b0 * corner_tangent(triangle, 0u) + b1 * corner_tangent(triangle, 1u) +
+                            b2 * corner_tangent(triangle, 2u);
             vec3 tangent = vec3(tangent4.x, tangent4.y, tangent4.z);
             tangent = tangent - s.normal * dot(s.normal, tangent);
             float tangent_length = length(tangent);
@@ -129,8 +133,7 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
 /// How much of the surface is there: alpha of a blend; 0 or 1 by the cutoff of a mask; 1 of everything else.
 float opacity_at(uint triangle, Surface s) LW_MEMBER {
     if (!has_alpha) return 1.0f;
-    if ((s.flags & material_alpha_mask) != 0u)
-        return s.alpha < material_of(triangle).alpha_cutoff ? 0.0f : 1.0f;
+    if ((s.flags & material_alpha_mask) != 0u) return s.alpha < material_of(triangle).alpha_cutoff ? 0.0f : 1.0f;
     return (s.flags & material_alpha_blend) != 0u ? clamp(s.alpha, 0.0f, 1.0f) : 1.0f;
 }
 

@@ -25,8 +25,8 @@ LW_INLINE vec3 tone_curve(vec3 c) {
     return mix(toned * (new_peak / peak), vec3(new_peak), whiteness);
 }
 
-/// One display-linear value in [0, 1] to its sRGB code in [0, 1]. The power 1/2.4 by square roots, three times as fast where
-/// there is no unit for powers: least largest error 2.1e-6, half a thousandth of an 8-bit code, none at the ends.
+/// One display-linear value in [0, 1] to its sRGB code in [0, 1]. The power 1/2.4 by square roots, three times as fast
+/// where there is no unit for powers: least largest error 2.1e-6, half a thousandth of an 8-bit code, none at the ends.
 LW_INLINE float encode_srgb_value(float v) {
     float fourth = sqrt(sqrt(v));
     float eighth = sqrt(fourth);

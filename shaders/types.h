@@ -7,10 +7,10 @@
 #include <glm/glm.hpp>
 #include <glm/integer.hpp>
 namespace lw {
-using glm::ivec2, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::mat3;
 using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::fract, glm::length, glm::max, glm::min, glm::mix;
 using glm::acos, glm::atan, glm::cos, glm::exp, glm::log, glm::normalize, glm::pow, glm::sin, glm::sqrt;
 using glm::bitCount, glm::findLSB, glm::floatBitsToUint, glm::uintBitsToFloat;
+using glm::ivec2, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::mat3;
 using uint = uint32_t;
 }  // namespace lw
 #define LW_CONST constexpr

@@ -1,5 +1,5 @@
-// The picture as it is looked at: exposed, in false colours, or A beside B; sRGB codes, 8 bits. A few pixels' values go back
-// to the CPU for exposure and ranges.
+// The picture as it is looked at: exposed, in false colours, or A beside B; sRGB codes, 8 bits. A few pixels' values go
+// back to the CPU for exposure and ranges.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -82,13 +82,15 @@ float depth_at(vec2 at) {
 /// True where an isolux line passes between this pixel and the next ones of the same surface.
 bool is_on_line(vec2 at, bool right_side) {
     bool logarithmic = push.logarithmic != 0u;
-    float here = floor(place_in_range(value_at(at, right_side), push.low, push.high, logarithmic) * float(push.lines) + 0.001f);
+    float here =
+        floor(place_in_range(value_at(at, right_side), push.low, push.high, logarithmic) * float(push.lines) + 0.001f);
     float depth = depth_at(at);
     for (int i = 0; i < 2; ++i) {
         vec2 next = at + (i == 0 ? vec2(1.0f, 0.0f) : vec2(0.0f, 1.0f));
         if (next.x >= float(push.screen.x) || next.y >= float(push.screen.y)) continue;
         if (abs(depth_at(next) - depth) > 0.03f * depth) continue;
-        float there = floor(place_in_range(value_at(next, right_side), push.low, push.high, logarithmic) * float(push.lines) + 0.001f);
+        float there = floor(
+            place_in_range(value_at(next, right_side), push.low, push.high, logarithmic) * float(push.lines) + 0.001f);
         if (there != here && max(here, there) >= 0.0f && min(here, there) <= float(push.lines)) return true;
     }
     return false;

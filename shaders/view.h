@@ -8,14 +8,14 @@ namespace lw {
 #endif
 
 LW_CONST uint view_shaded = 0u;
-LW_CONST uint view_illuminance = 1u;         // lx
-LW_CONST uint view_luminance = 2u;           // cd/m2
-LW_CONST uint view_difference = 3u;          // lx, B - A
+LW_CONST uint view_illuminance = 1u;          // lx
+LW_CONST uint view_luminance = 2u;            // cd/m2
+LW_CONST uint view_difference = 3u;           // lx, B - A
 LW_CONST uint view_relative_difference = 4u;  // %, (B - A) / A
-LW_CONST uint view_photons = 5u;             // the photons themselves, in a colour for each lamp
-LW_CONST uint view_photon_count = 6u;        // photons per estimate
-LW_CONST uint view_bandwidth = 7u;           // cm
-LW_CONST uint view_error = 8u;               // %, estimated standard error of the illuminance
+LW_CONST uint view_photons = 5u;              // the photons themselves, in a colour for each lamp
+LW_CONST uint view_photon_count = 6u;         // photons per estimate
+LW_CONST uint view_bandwidth = 7u;            // cm
+LW_CONST uint view_error = 8u;                // %, estimated standard error of the illuminance
 LW_CONST uint view_count = 9u;
 
 LW_CONST uint curve_neutral = 0u;  // Khronos PBR Neutral
@@ -23,8 +23,8 @@ LW_CONST uint curve_linear = 1u;   // clipped at white
 LW_CONST uint curve_soft = 2u;     // x / (1 + x) on the luminance (Reinhard et al. 2002)
 LW_CONST uint curve_count = 3u;
 
-LW_CONST uint binding_view_light = 0u;   // A: RGB cd/m2, lx; sums over its samples; texels
-LW_CONST uint binding_view_other = 1u;   // B, or what an estimate stands on (shaders/inspect.glsl)
+LW_CONST uint binding_view_light = 0u;  // A: RGB cd/m2, lx; sums over its samples; texels
+LW_CONST uint binding_view_other = 1u;  // B, or what an estimate stands on (shaders/inspect.glsl)
 LW_CONST uint binding_view_visibility = 2u;
 LW_CONST uint binding_view_screen = 3u;
 LW_CONST uint binding_view_glance = 4u;
@@ -52,17 +52,17 @@ struct Glance {
 /// Push constants of the view pass.
 struct ViewPush {
     uvec2 screen;
-    uvec2 picture;  // pixels; may be fewer than the screen's while moving
+    uvec2 picture;      // pixels; may be fewer than the screen's while moving
     float scale_light;  // 1 / samples summed
     float scale_fresh;  // the same in the first fresh_rows of the picture, which have one sample more
     uint fresh_rows;
     float exposure_ev;
-    float low;   // false colours from low to high
+    float low;  // false colours from low to high
     float high;
     uint logarithmic;
-    uint lines;  // isolux lines over the range, 0: none
+    uint lines;   // isolux lines over the range, 0: none
     float split;  // part of the width left of which A is shown, right of it B; 1: A alone
-    uint bgr;    // 1: blue in the low byte
+    uint bgr;     // 1: blue in the low byte
 };
 
 /// Display-linear colour of exposed RGB >= 0.
@@ -73,16 +73,20 @@ LW_INLINE vec3 apply_curve(vec3 exposed, uint curve) {
     return min(exposed * (1.0f / (1.0f + l)), vec3(1.0f));
 }
 
-/// sRGB colour of t in [0, 1], dark blue over green to red: "Turbo", fit of Mikhailov (2019), rises in lightness to the middle.
+/// sRGB colour of t in [0, 1], dark blue over green to red: "Turbo", fit of Mikhailov (2019), rises in lightness to the
+/// middle.
 LW_INLINE vec3 false_color(float t) {
     float x = clamp(t, 0.0f, 1.0f);
     float x2 = x * x;
     float x3 = x2 * x;
     float x4 = x2 * x2;
     float x5 = x4 * x;
-    float r = 0.13572138f + 4.61539260f * x - 42.66032258f * x2 + 132.13108234f * x3 - 152.94239396f * x4 + 59.28637943f * x5;
-    float g = 0.09140261f + 2.19418839f * x + 4.84296658f * x2 - 14.18503333f * x3 + 4.27729857f * x4 + 2.82956604f * x5;
-    float b = 0.10667330f + 12.64194608f * x - 60.58204836f * x2 + 110.36276771f * x3 - 89.90310912f * x4 + 27.34824973f * x5;
+    float r =
+        0.13572138f + 4.61539260f * x - 42.66032258f * x2 + 132.13108234f * x3 - 152.94239396f * x4 + 59.28637943f * x5;
+    float g =
+        0.09140261f + 2.19418839f * x + 4.84296658f * x2 - 14.18503333f * x3 + 4.27729857f * x4 + 2.82956604f * x5;
+    float b =
+        0.10667330f + 12.64194608f * x - 60.58204836f * x2 + 110.36276771f * x3 - 89.90310912f * x4 + 27.34824973f * x5;
     return clamp(vec3(r, g, b), vec3(0.0f), vec3(1.0f));
 }
 

@@ -55,11 +55,10 @@ void render(Options& options) {
         lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
     lw::check_is_light(reference.image);
     lw::write_exr(options.output, reference.image);
-    std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n", lw::one_line(options.output).c_str(),
-                (unsigned long long)reference.samples, reference.relative_error);
+    std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n",
+                lw::one_line(options.output).c_str(), (unsigned long long)reference.samples, reference.relative_error);
     if (reference.caustic_radius > 0)
-        std::printf("caustics are traced from the lamps and blurred over %.2g m\n",
-                    double(reference.caustic_radius));
+        std::printf("caustics are traced from the lamps and blurred over %.2g m\n", double(reference.caustic_radius));
 }
 
 }  // namespace
@@ -86,9 +85,8 @@ int main(int argc, char** argv) {
         ->allow_extra_args(false);
     app.add_flag("!--no-illuminance", options.settings.illuminance,
                  "leave out the illuminance channel (half the time)");
-    app.add_option(
-           "--caustic-paths", options.settings.caustic_paths,
-           "paths from the lamps per sample, for light of lamps by way of mirrors and glass (0: none)")
+    app.add_option("--caustic-paths", options.settings.caustic_paths,
+                   "paths from the lamps per sample, for light of lamps by way of mirrors and glass (0: none)")
         ->capture_default_str()
         ->check(CLI::Range(uint64_t(0), uint64_t(1) << 32));
     app.add_option("--caustic-radius", options.settings.caustic_radius,

@@ -59,7 +59,8 @@ void add_options(CLI::App& app, Options& o) {
                    "shadow rays per pixel and emissive mesh; 0: none at all, shadows as sharp as the bake's lattice")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
-    app.add_option("--paths", o.paths, "paths followed per pixel along narrow lobes and through glass, where there are any")
+    app.add_option("--paths", o.paths,
+                   "paths followed per pixel along narrow lobes and through glass, where there are any")
         ->check(CLI::Range(1u, lw::most_paths))
         ->capture_default_str();
     app.add_option("--followed-roughness", o.followed_roughness,
@@ -77,9 +78,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--frames", o.frames, "frames to time, the median is told")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    app.add_option("--rays", o.rays, lw::rays_help)
-        ->check(CLI::IsMember(lw::rays_names))
-        ->capture_default_str();
+    app.add_option("--rays", o.rays, lw::rays_help)->check(CLI::IsMember(lw::rays_names))->capture_default_str();
     app.add_flag("--validation", o.validation, "run with the Vulkan validation layer; any message is an error");
     app.add_flag("--list-cameras", o.list_cameras, "print the cameras of the scene");
     app.add_flag("--list-lights", o.list_lights, "print the lamps of the scene");

@@ -5,8 +5,8 @@
 
 namespace lw {
 
-/// A stream to read the bytes of `path`; a failed one when there is no such file or when it is something else (a folder, a
-/// device, a pipe that nobody writes to).
+/// A stream to read the bytes of `path`; a failed one when there is no such file or when it is something else (a
+/// folder, a device, a pipe that nobody writes to).
 inline std::ifstream open_input(const std::filesystem::path& path, std::ios::openmode more = {}) {
     std::error_code failure;
     std::ifstream stream;

@@ -21,8 +21,8 @@ namespace {
 /// The lowest free number is what open() takes: the files of the work come after the three.
 void open_closed_streams() {
     for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        if (fcntl(stream, F_GETFD) < 0 && errno == EBADF)
-            [[maybe_unused]] const int opened = open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+        if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) [[maybe_unused]]
+            const int opened = open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
 }
 
 int fail(const char* program, const std::string& what) {

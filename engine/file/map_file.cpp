@@ -209,8 +209,8 @@ void check_masks(const std::filesystem::path& path, const PhotonMap& map, const 
         const auto before = [](const ShadowMask& a, const ShadowMask& b) {
             return a.cell < b.cell || (a.cell == b.cell && a.lamp < b.lamp);
         };
-        if (mask.cell >= map.coverage.size() || mask.lamp >= scene.lights.size() || scene.lights[mask.lamp].type == light_mesh ||
-            (i > 0 && !before(map.shadow_masks[i - 1], mask)))
+        if (mask.cell >= map.coverage.size() || mask.lamp >= scene.lights.size() ||
+            scene.lights[mask.lamp].type == light_mesh || (i > 0 && !before(map.shadow_masks[i - 1], mask)))
             refuse(path, "shadow mask " + std::to_string(i) + " is not valid");
     }
 }

@@ -101,8 +101,7 @@ void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Pi
     const uint paths = unpack_following(frame.following).paths;
     for (uint branch = 0; branch < branch_count; ++branch)
         for (uint path = 0; has_branch_[branch] && path < paths; ++path)
-            for (uint depth = 0; depth < lobes_; ++depth)
-                record_path(commands, picture, {branch, depth, path, paths});
+            for (uint depth = 0; depth < lobes_; ++depth) record_path(commands, picture, {branch, depth, path, paths});
 }
 
 void GatherPass::empty_lists(vk::CommandBuffer commands, const Picture& picture, uint lists) const {

@@ -42,7 +42,7 @@ void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, cons
         if (frame.sample_index == 1) sample.sample_index = 0, sample.sample_weight *= 2;  // in the place of the first
     }
     pass_for(gather).record(commands, with_gather(sample, *resident_, gather, lamps), side == Side::a ? a_ : b_, lamps,
-                              rows);
+                            rows);
 }
 
 void LiveView::record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {

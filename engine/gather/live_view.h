@@ -24,9 +24,9 @@ class LiveView {
     /// Records what each pixel sees. `frame` may have fewer pixels than size().
     void record_visibility(vk::CommandBuffer commands, const Frame& frame) const;
     /// Records the light of one sample into a picture: frame.sample_index 0 overwrites, others are added. For a running
-    /// sum give every frame the sample_weight 1. Sample 0, all there is in motion, follows the lobes of mirrors alone; sample
-    /// 1 follows all and replaces it in the sum. `lamps`: setting of Resident::set_light_factors(). Throws Error for too
-    /// many neighbours of the exact mode.
+    /// sum give every frame the sample_weight 1. Sample 0, all there is in motion, follows the lobes of mirrors alone;
+    /// sample 1 follows all and replaces it in the sum. `lamps`: setting of Resident::set_light_factors(). Throws Error
+    /// for too many neighbours of the exact mode.
     void record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
                       uint lamps = 0, Rows rows = {});
     /// Records the screen picture, and the glance of frame slot 0 or 1. Afterwards screen() may be copied.

@@ -12,7 +12,7 @@ class Picture {
     Picture(const Device& device, const Target& visibility, const Resident& resident);
     const DescriptorSet& descriptors() const { return descriptors_; }
     const Buffer& radiance() const { return radiance_; }    // vec4: RGB cd/m2, illuminance lx
-    vk::BufferView light() const { return *light_; }       // the same as texels
+    vk::BufferView light() const { return *light_; }        // the same as texels
     const Buffer& ray_lists() const { return ray_lists_; }  // RayPixels per list
     const Buffer& screen() const { return screen_; }        // RGBA8
 

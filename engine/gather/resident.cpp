@@ -20,8 +20,7 @@ std::vector<Binding> scene_bindings(bool queries_rays) {
     const auto all = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | compute;
     std::vector<Binding> bindings;
     for (uint i = 0; i < scene_binding_count; ++i) {
-        const bool of_surfaces =
-            i <= binding_texels || i == binding_looks || i == binding_textures;
+        const bool of_surfaces = i <= binding_texels || i == binding_looks || i == binding_textures;
         const auto type =
             i < texel_binding_count ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
         bindings.push_back({i, type, descriptor_count(i), of_surfaces ? vk::ShaderStageFlags(all) : compute});
@@ -68,7 +67,8 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
       ray_epsilon_(scene.ray_epsilon()),
       scene_size_(scene.size()),
       queries_rays_(device.ray_queries() && !bvh.nodes.empty()),
-      descriptors_{DescriptorSet(device, scene_bindings(queries_rays_)), DescriptorSet(device, scene_bindings(queries_rays_))} {
+      descriptors_{DescriptorSet(device, scene_bindings(queries_rays_)),
+                   DescriptorSet(device, scene_bindings(queries_rays_))} {
     if (scene.triangles.size() > 0xffffffffu / 3u)
         throw Error(scene.path.string() + ": more than " + std::to_string(0xffffffffu / 3u) + " triangles");
     if (!map.triangle_maps.empty() && map.triangle_maps.size() != 2 * scene.triangles.size())
@@ -128,7 +128,8 @@ std::vector<uvec4> as_texels(const std::vector<T>& records) {
 void Resident::upload_scene(const Scene& scene) {
     upload_corners(scene);
     upload_texels<uint>(binding_texels, vk::Format::eR8G8B8A8Unorm, scene.texels, "texels");
-    upload_texels<uvec4>(binding_looks, vk::Format::eR32G32B32A32Uint, as_texels<look_texels>(scene.materials), "materials");
+    upload_texels<uvec4>(binding_looks, vk::Format::eR32G32B32A32Uint, as_texels<look_texels>(scene.materials),
+                         "materials");
     upload_texels<uvec4>(binding_textures, vk::Format::eR32G32B32A32Uint, as_texels<texture_texels>(scene.textures),
                          "textures");
 }
@@ -193,8 +194,10 @@ void Resident::upload_direct(const Scene& scene, const Bvh& bvh) {
     upload_records<Emitter>(binding_emitters, scene.emitters, "emitters");
     const std::span<const BvhNode> nodes = queries_rays_ ? std::span<const BvhNode>() : bvh.nodes;
     const std::vector<uint> triangles = queries_rays_ ? queried(bvh) : bvh.triangles;
-    upload_texels<BvhNode>(binding_bvh_nodes, vk::Format::eR32G32B32A32Uint, nodes, "nodes of the shadow rays' hierarchy");
-    upload_texels<uint>(binding_bvh_triangles, vk::Format::eR32Uint, triangles, "triangles of the shadow rays' hierarchy");
+    upload_texels<BvhNode>(binding_bvh_nodes, vk::Format::eR32G32B32A32Uint, nodes,
+                           "nodes of the shadow rays' hierarchy");
+    upload_texels<uint>(binding_bvh_triangles, vk::Format::eR32Uint, triangles,
+                        "triangles of the shadow rays' hierarchy");
     list_of_rays_ = nodes.size_bytes() + triangles.size() * sizeof(uint);
 }
 
@@ -305,9 +308,7 @@ void Resident::write_cells(Lamps& lamps, std::span<const vec3> weights) const {
     write_bytes(*device_, lamps.cells, light.data(), light.size() * sizeof(uvec4));
 }
 
-uint64_t Resident::ray_bytes() const {
-    return acceleration_ ? acceleration_->bytes() + list_of_rays_ : list_of_rays_;
-}
+uint64_t Resident::ray_bytes() const { return acceleration_ ? acceleration_->bytes() + list_of_rays_ : list_of_rays_; }
 
 uint64_t Resident::bytes() const {
     uint64_t sum = 0;

@@ -1,6 +1,6 @@
 // A scene and its photon map in GPU memory, as descriptor set 0 of all passes (shaders/frame.h).
-// The photons' arrays are uploaded as they are, those of the vertices per corner; photon records beyond the device's texel
-// buffers are split over several.
+// The photons' arrays are uploaded as they are, those of the vertices per corner; photon records beyond the device's
+// texel buffers are split over several.
 #pragma once
 #include <array>
 #include <optional>

@@ -44,7 +44,8 @@ Acceleration::Acceleration(const Device& device, const TracedTriangles& triangle
     const size_t count = others > 0 ? 2 : 1;
     triangles_ = build(device, Type::eBottomLevel, {geometries, count}, {ranges, count});
 
-    const vk::TransformMatrixKHR identity(std::array<std::array<float, 4>, 3>{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
+    const vk::TransformMatrixKHR identity(
+        std::array<std::array<float, 4>, 3>{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
     const vk::AccelerationStructureInstanceKHR instance(
         identity, 0, 0xff, 0, vk::GeometryInstanceFlagBitsKHR::eTriangleFacingCullDisable,
         device.handle().getAccelerationStructureAddressKHR(*triangles_.handle, device.ray_functions()));
@@ -58,7 +59,8 @@ Acceleration::Acceleration(const Device& device, const TracedTriangles& triangle
 
 Acceleration::Level Acceleration::build(const Device& device, Type type, std::span<const Geometry> geometries,
                                         std::span<const Range> ranges) const try {
-    vk::AccelerationStructureBuildGeometryInfoKHR info(type, vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace,
+    vk::AccelerationStructureBuildGeometryInfoKHR info(type,
+                                                       vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace,
                                                        vk::BuildAccelerationStructureModeKHR::eBuild);
     info.setGeometries(geometries);
     std::vector<uint32_t> counts;

@@ -7,8 +7,8 @@
 
 namespace lw {
 
-/// Geometry 0 is opaque: rays end there by themselves. Triangles of geometry 1 are candidates that the shader decides on,
-/// each once.
+/// Geometry 0 is opaque: rays end there by themselves. Triangles of geometry 1 are candidates that the shader decides
+/// on, each once.
 struct TracedTriangles {
     std::span<const glm::vec3> positions;
     std::span<const glm::uvec3> corners;  // of the triangles of geometry 0, then of geometry 1; at least one

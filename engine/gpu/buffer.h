@@ -9,8 +9,8 @@ namespace lw {
 /// Owns a buffer and its memory. Device-local ones can be bound as storage or texel buffers and copied to and from.
 class Buffer {
   public:
-    /// host: visible to the CPU and coherent, for staging; traced: on the device, what acceleration structures are made of
-    /// and lie in (Device::ray_queries())
+    /// host: visible to the CPU and coherent, for staging; traced: on the device, what acceleration structures are made
+    /// of and lie in (Device::ray_queries())
     enum class Place { device, host, traced };
 
     Buffer() = default;

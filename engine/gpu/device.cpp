@@ -84,9 +84,10 @@ constexpr const char* ray_query_extensions[] = {VK_KHR_RAY_QUERY_EXTENSION_NAME,
 bool has_ray_queries(vk::PhysicalDevice device) {
     for (const char* name : ray_query_extensions)
         if (!has_extension(device, name)) return false;
-    const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
-                                           vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
-                                           vk::PhysicalDeviceRayQueryFeaturesKHR>();
+    const auto chain =
+        device
+            .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                          vk::PhysicalDeviceAccelerationStructureFeaturesKHR, vk::PhysicalDeviceRayQueryFeaturesKHR>();
     return chain.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress &&
            chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure &&
            chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery;

@@ -162,7 +162,7 @@ void append_cells(const std::vector<std::vector<uint>>& starts, size_t first_gri
 
 /// Appends the grids of a set of photons, cuts last.
 LitPatches append_grids(const Scene& scene, const RayCaster& caster, const Partition& partition,
-                               const std::vector<Photon>& photons, PhotonMap& map) {
+                        const std::vector<Photon>& photons, PhotonMap& map) {
     const References references = find_references({scene, photons, partition.patches, partition.shapes, partition.radii,
                                                    map.settings.neighbour_angle_deg, partition.neighbours, caster});
     LitPatches lit = keep_lit_patches(references, partition.patches, map);

@@ -12,7 +12,7 @@
 namespace lw {
 namespace {
 
-constexpr float even_distance = 12;  // steps of the lattice: light from nearer lamps bends too much between nodes
+constexpr float even_distance = 12;       // steps of the lattice: light from nearer lamps bends too much between nodes
 constexpr float brightest_direct = 4096;  // of a record; RGB9E5 goes to 65408
 
 /// lux at a point facing `normal` from a lamp of intensity 1, if nothing stands between; falloff as
@@ -70,9 +70,7 @@ CellLight::CellLight(const Scene& scene, const PhotonMap& map)
         for (float e : lamp) brightest_direct_ = std::max(brightest_direct_, e);
 }
 
-uint& CellLight::lamp_word(size_t cell, uint lamp) {
-    return words_[cell * stride_ + marks_ + cell_lamp_word(lamp)];
-}
+uint& CellLight::lamp_word(size_t cell, uint lamp) { return words_[cell * stride_ + marks_ + cell_lamp_word(lamp)]; }
 
 void CellLight::describe_cells(const SurfaceGrid& grid) {
     for_cells(grid.lattice, [&](uint node) {

@@ -16,10 +16,12 @@ namespace lw {
 struct GatherSettings {
     uint mode = gather_mode_cached;
     uint neighbours = 300;  // photons per estimate
-    // Per emissive mesh; 0: none where the map has a lattice, shadows as sharp as that, of lobes mirrors alone followed.
+    // Per emissive mesh; 0: none where the map has a lattice, shadows as sharp as that, of lobes mirrors alone
+    // followed.
     uint shadow_rays = 4;
-    uint paths = 1;         // per pixel along lobes that are followed
-    float followed_roughness = widest_followed_roughness;  // lobes of surfaces smoother than this, at most 1, are followed
+    uint paths = 1;  // per pixel along lobes that are followed
+    float followed_roughness =
+        widest_followed_roughness;  // lobes of surfaces smoother than this, at most 1, are followed
 };
 
 /// Photon estimate at surface points; read-only view, scene and map must outlive it.
@@ -57,7 +59,8 @@ class PhotonEstimator : public SurfaceReader {
           has_shadow_rays(settings.shadow_rays > 0 || !map.has_visible_lamps()),
           has_followed(!bvh.nodes.empty()),
           looks_through(!bvh.nodes.empty()),
-          followed_roughness(settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f) : std::sqrt(smallest_alpha)),
+          followed_roughness(settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f)
+                                                      : std::sqrt(smallest_alpha)),
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
         if (map.irradiance.empty()) return;
         const CellLight cells(scene, map);

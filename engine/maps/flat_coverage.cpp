@@ -7,12 +7,12 @@
 namespace lw {
 namespace {
 
-constexpr uint block_side = 8;          // nodes across a block that is looked at as a whole
+constexpr uint block_side = 8;  // nodes across a block that is looked at as a whole
 constexpr uint smallest_block = 2;
-constexpr size_t most_triangles = 48;  // around a block; more are sampled faster
-constexpr float flatness = 2e-3f;      // radii: heights of what lies in the plane
-constexpr float burying_reach = 1.3f;  // radii: how far is_buried() looks sideways from the rim of a kernel
-constexpr float parallel_walls = 0.9f; // cosine between walls that may leave a slit
+constexpr size_t most_triangles = 48;   // around a block; more are sampled faster
+constexpr float flatness = 2e-3f;       // radii: heights of what lies in the plane
+constexpr float burying_reach = 1.3f;   // radii: how far is_buried() looks sideways from the rim of a kernel
+constexpr float parallel_walls = 0.9f;  // cosine between walls that may leave a slit
 
 using Polygon = std::vector<vec2>;
 
@@ -75,8 +75,8 @@ class Ground {
         limit_support();
     }
 
-    /// The polygons of the plane at `height` around the rectangle [low, high], clipped to where the map refers to photons;
-    /// nullopt when the ground is not as simple as that.
+    /// The polygons of the plane at `height` around the rectangle [low, high], clipped to where the map refers to
+    /// photons; nullopt when the ground is not as simple as that.
     std::optional<std::vector<Polygon>> look(vec2 low, vec2 high, float height) {
         const float reach = (1 + burying_reach) * radius_;
         const vec3 middle(0.5f * (low + high), height);

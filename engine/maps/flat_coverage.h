@@ -1,5 +1,5 @@
-// Coverage in closed form, where a lattice lies on plane ground: a few triangles in its plane that do not overlap, at most
-// walls across it, and nothing that could bury it. Most of a room is like that; the rest is sampled (coverage.h).
+// Coverage in closed form, where a lattice lies on plane ground: a few triangles in its plane that do not overlap, at
+// most walls across it, and nothing that could bury it. Most of a room is like that; the rest is sampled (coverage.h).
 #pragma once
 #include <array>
 #include <vector>
@@ -11,8 +11,9 @@ namespace lw {
 
 using CoverageLevels = std::array<float, coverage_levels>;
 
-/// Integral of the kernels of all levels, 2 / (pi r2) (1 - d2 / r2), around the origin over a convex polygon whose corners
-/// follow each other to the left; radii[i] is that of level i, ascending, m. 1 each when the polygon covers the largest.
+/// Integral of the kernels of all levels, 2 / (pi r2) (1 - d2 / r2), around the origin over a convex polygon whose
+/// corners follow each other to the left; radii[i] is that of level i, ascending, m. 1 each when the polygon covers the
+/// largest.
 CoverageLevels integrate_kernels(const std::vector<vec2>& polygon, const CoverageLevels& radii);
 
 /// The coverage of the nodes of map m where it has a closed form; the others are left alone and listed in `others`, as

@@ -10,8 +10,8 @@ namespace lw {
 /// shared exponent').
 uint pack_rgb9e5(vec3 color);
 
-/// Octahedral map in 8 + 8 bits of a unit vector: one of the four codes around it, chosen by `dither` in [0, 1) x [0, 1) so
-/// that their mean is the vector.
+/// Octahedral map in 8 + 8 bits of a unit vector: one of the four codes around it, chosen by `dither` in [0, 1) x [0,
+/// 1) so that their mean is the vector.
 uint16_t pack_direction(vec3 direction, vec2 dither);
 
 }  // namespace lw

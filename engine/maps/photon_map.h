@@ -24,31 +24,31 @@ struct PhotonMap {
     uint64_t scene_hash = 0;
     BakeSettings settings;  // with the radius that was used
     uint64_t stored_photons = 0;
-    float flux_scale = 1;             // record flux = flux * flux_scale, keeps RGB9E5 in range
-    std::vector<uint64_t> emitted;    // photons emitted per light
-    std::vector<uint> triangle_maps;  // 2 per triangle: map of the front side, of the back side, or no_map
-    SparseWords caustic_sides;        // when there are caustics, 2 per triangle: their map + 1, or 0
-    std::vector<SurfaceGrid> grids;   // per map, then the cuts; those of caustics come last and have no lattice
-    uint caustic_grids = 0;           // how many those are; their photons (path_caustic) are in no other map
-    std::vector<uint> cell_starts;    // cells of all maps + 1
-    std::vector<PhotonPlace> places;  // 8 bytes per reference
-    std::vector<uint> fluxes;         // RGB9E5 per reference
+    float flux_scale = 1;              // record flux = flux * flux_scale, keeps RGB9E5 in range
+    std::vector<uint64_t> emitted;     // photons emitted per light
+    std::vector<uint> triangle_maps;   // 2 per triangle: map of the front side, of the back side, or no_map
+    SparseWords caustic_sides;         // when there are caustics, 2 per triangle: their map + 1, or 0
+    std::vector<SurfaceGrid> grids;    // per map, then the cuts; those of caustics come last and have no lattice
+    uint caustic_grids = 0;            // how many those are; their photons (path_caustic) are in no other map
+    std::vector<uint> cell_starts;     // cells of all maps + 1
+    std::vector<PhotonPlace> places;   // 8 bytes per reference
+    std::vector<uint> fluxes;          // RGB9E5 per reference
     std::vector<uint16_t> directions;  // octahedral direction the photon came from; empty without glossy surfaces
 
     std::vector<uint> coverage;  // per node of the lattices of all maps, see unpack_coverage()
     std::vector<uint>
-        visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all light
+        visible_lamps;       // which lamps the nodes see, see visibility_words(); empty when photons hold all light
     SparseWords irradiance;  // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
     float irradiance_scale = 1;
-    std::vector<uint> smooth_caustics;  // a bit per node: its irradiance holds caustics; empty without caustics, and when
-                                        // photons hold all light
+    std::vector<uint> smooth_caustics;     // a bit per node: its irradiance holds caustics; empty without caustics, and
+                                           // when photons hold all light
     std::vector<ShadowMask> shadow_masks;  // in the order of cells and lamps; empty when photons hold all light
 
     /// All arrays together.
     uint64_t bytes() const {
         const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
-        return size(triangle_maps, grids, cell_starts, places, fluxes, directions, coverage, visible_lamps, smooth_caustics,
-                    shadow_masks) +
+        return size(triangle_maps, grids, cell_starts, places, fluxes, directions, coverage, visible_lamps,
+                    smooth_caustics, shadow_masks) +
                caustic_sides.bytes() + irradiance.bytes();
     }
 

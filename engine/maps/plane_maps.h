@@ -13,7 +13,8 @@ class PlaneMaps {
 
     /// True when all triangles of map m lie in one plane, to 2 % of the step of its lattice.
     bool is_plane(size_t m) const { return plane_[m] != 0; }
-    /// True when, besides, direct light of small lamps looks the same from all sides, and shading normals are the plane's.
+    /// True when, besides, direct light of small lamps looks the same from all sides, and shading normals are the
+    /// plane's.
     bool is_matte_plane(size_t m) const { return plane_[m] != 0 && matte_[m] != 0; }
     /// Of the highest corner over the origin of the grid along its normal, m.
     float height(size_t m) const { return heights_[m]; }

@@ -16,9 +16,9 @@ namespace {
 
 constexpr size_t most_tasks = 64;
 constexpr size_t smallest_task = 8192;
-constexpr float same_plane = 0.999f;       // least cosine between normals
-constexpr float one_plane = 0.9999999f;    // the same of triangles that share a normal
-constexpr uint moved_out = ~0u;       // in place of a photon that its own patch does not keep
+constexpr float same_plane = 0.999f;     // least cosine between normals
+constexpr float one_plane = 0.9999999f;  // the same of triangles that share a normal
+constexpr uint moved_out = ~0u;          // in place of a photon that its own patch does not keep
 
 /// A reference to a photon of another patch.
 struct Foreign {
@@ -199,7 +199,8 @@ void place_counts(std::vector<Task>& tasks, size_t patches, const Begin& begin, 
     }
 }
 
-/// The photons in the order of their own patches: those of patch p are photons[starts[p]] .. photons[starts[p + 1] - 1].
+/// The photons in the order of their own patches: those of patch p are photons[starts[p]] .. photons[starts[p + 1] -
+/// 1].
 References sort_by_patch(const ReferenceInput& input, const MapFinder& finder) {
     References sorted{{0}, std::vector<uint>(input.photons.size())};
     std::vector<uint> own(input.photons.size());

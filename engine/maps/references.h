@@ -33,7 +33,8 @@ struct ReferenceInput {
 constexpr float widest_overhang = 1.1f;
 
 /// The radius of each patch: `largest`, but so small that the photons around a small patch do not outnumber those on
-/// it: the overhang (P r + pi r^2) / A of its rectangle stays below `overhang`, unless the radius is below `floor` metres.
+/// it: the overhang (P r + pi r^2) / A of its rectangle stays below `overhang`, unless the radius is below `floor`
+/// metres.
 std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float largest, float floor,
                                float overhang = widest_overhang);
 

@@ -10,7 +10,7 @@ namespace lw {
 namespace {
 
 constexpr float brightest_record = 32768;  // RGB9E5 goes to 65408
-constexpr float least_steps = 1.5f;        // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
+constexpr float least_steps = 1.5f;  // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
 
 /// The text of shaders/caustics.glsl at lattice nodes, lamp by lamp.
 class CausticNodes : public PhotonEstimator {

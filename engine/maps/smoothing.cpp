@@ -9,9 +9,9 @@
 namespace lw {
 namespace {
 
-constexpr float spread2 = 2.5f;     // variance of the weights over distance, nodes squared
-constexpr float noise = 0.12f;      // relative: twice that of 300 photons
-constexpr float darkest = 1e-30f;   // keeps quotients numbers
+constexpr float spread2 = 2.5f;    // variance of the weights over distance, nodes squared
+constexpr float noise = 0.12f;     // relative: twice that of 300 photons
+constexpr float darkest = 1e-30f;  // keeps quotients numbers
 
 /// exp(-x) as (1 - x / 16)^16: a Gaussian that ends, without a call of the library.
 float ending_exponential(float x) {
@@ -49,7 +49,8 @@ LatticePlanes smooth(const LatticePlanes& light, const LatticePlanes& brightness
         for (int dy = -reach; dy <= reach; ++dy)
             for (int dx = -reach; dx <= reach; ++dx) {
                 const float weight = std::exp(-0.5f * float(dx * dx + dy * dy) / spread2);
-                weigh(brightness.row(0, y), brightness.row(0, y + dy) + dx, existence.row(0, y + dy) + dx, weight, weights);
+                weigh(brightness.row(0, y), brightness.row(0, y + dy) + dx, existence.row(0, y + dy) + dx, weight,
+                      weights);
                 for (size_t x = 0; x < totals.size(); ++x) totals[x] += weights[x];
                 for (uint p = 0; p < light.planes; ++p)
                     add_weighted(light.row(p, y + dy) + dx, weights, smoothed.row(p, y));

@@ -1,5 +1,6 @@
-// Takes the mottle out of estimates at the nodes of a lattice: a bilateral filter (Tomasi & Manduchi 1998). Each node is
-// averaged with those around that differ by no more than the noise of the estimate may explain; gradients and edges stay.
+// Takes the mottle out of estimates at the nodes of a lattice: a bilateral filter (Tomasi & Manduchi 1998). Each node
+// is averaged with those around that differ by no more than the noise of the estimate may explain; gradients and edges
+// stay.
 #pragma once
 #include <vector>
 

@@ -22,8 +22,8 @@ bool is_inside(const SurfaceReader& surfaces, const RayCaster& caster, const Sen
 /// is as large, and models are hardly more exact.
 bool is_near_border(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor);
 
-/// True within 1 cm of a lamp that is a point, whose illuminance grows there beyond all bounds and that of the real lamp
-/// does not.
+/// True within 1 cm of a lamp that is a point, whose illuminance grows there beyond all bounds and that of the real
+/// lamp does not.
 bool is_at_lamp(const Scene& scene, const Sensor& sensor);
 
 }  // namespace lw

@@ -192,7 +192,8 @@ std::string describe(const Scene& scene, const Reflection& reflection) {
 namespace {
 
 constexpr const char* columns =
-    "object,lamp,luminance_cd_m2,peak_cd_m2,surroundings_cd_m2,ratio,solid_angle_sr,position_index,glare,ugr_alone,x_px,"
+    "object,lamp,luminance_cd_m2,peak_cd_m2,surroundings_cd_m2,ratio,solid_angle_sr,position_index,glare,ugr_alone,x_"
+    "px,"
     "y_px,pixels\n";
 
 std::string quoted(const std::string& name) {
@@ -223,8 +224,7 @@ void write_reflections(const std::filesystem::path& path, const Scene& scene,
     ReplacedFile file(path);
     file.stream() << "view," << columns;
     for (const ViewedReflections& v : views)
-        for (const Reflection& r : v.report.found)
-            file.stream() << quoted(v.view) << ',' << row_of(scene, v.report, r);
+        for (const Reflection& r : v.report.found) file.stream() << quoted(v.view) << ',' << row_of(scene, v.report, r);
     file.commit();
 }
 

@@ -63,8 +63,8 @@ std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster
             const auto hit = caster.nearest(ray.origin, ray.direction);
             if (!hit) continue;
             const size_t pixel = y * size_t(width) + size_t(x);
-            lux[pixel] = double(
-                luminance(estimator.estimate(hit->triangle, hit->barycentrics, -ray.direction, uint(pixel)).irradiance));
+            lux[pixel] = double(luminance(
+                estimator.estimate(hit->triangle, hit->barycentrics, -ray.direction, uint(pixel)).irradiance));
         }
     });
     return lux;

@@ -1,5 +1,5 @@
-// What a photon reads of a matte triangle that it meets, in one line of cache: photons meet triangles in random order, and
-// the arrays of a Scene would make them wait eight times.
+// What a photon reads of a matte triangle that it meets, in one line of cache: photons meet triangles in random order,
+// and the arrays of a Scene would make them wait eight times.
 #pragma once
 #include <array>
 #include <vector>

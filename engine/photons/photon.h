@@ -21,8 +21,10 @@ struct Photon {
     uint origin;    // pack_origin(): lamp, path class, struck side
 
     uint light() const { return origin & light_mask; }
-    uint path() const { return (origin >> path_shift) & 3u; }  // path_direct, path_indirect, path_caustic, path_near_caustic
-    uint side() const { return origin >> 16; }                 // 0: front of the triangle, 1: back
+    uint path() const {
+        return (origin >> path_shift) & 3u;
+    }                                           // path_direct, path_indirect, path_caustic, path_near_caustic
+    uint side() const { return origin >> 16; }  // 0: front of the triangle, 1: back
 };
 
 /// Asks for a photon that will be read soon; it may lie across two lines of cache.

@@ -170,7 +170,8 @@ void PhotonTracer::read_matte(const Hit& hit, const Facet& facet, Surface& s) co
 /// Sends the photon on from a surface, by roulette; false when it ends there.
 bool PhotonTracer::leave(Chunk& chunk, Flight& flight, const Bounce& at) const {
     if (at.matte) return leave_matte(chunk, flight, at);
-    const std::optional<Scatter> next = sample_bsdf(surfaces_, at.surface, -flight.direction, Carries::flux, flight.rng);
+    const std::optional<Scatter> next =
+        sample_bsdf(surfaces_, at.surface, -flight.direction, Carries::flux, flight.rng);
     // Ends what is caught in clear glass.
     const float longest_survival = flight.depth < depth_of_roulette || (next && !next->specular) ? 1.0f : 0.95f;
     if (!survives(chunk, flight, next ? next->weight : vec3(0), longest_survival)) return false;

@@ -35,8 +35,8 @@ class PhotonTracer {
     /// The five emission numbers of a path, before aiming: Owen-scrambled Sobol.
     std::array<float, 5> numbers(uint light, uint64_t index) const;
 
-    /// Traces the paths of a chunk, a few side by side; each carries 1 / emitted of the lamp's flux. With `most` photons
-    /// no more paths are started; chunk.last becomes the first that was not.
+    /// Traces the paths of a chunk, a few side by side; each carries 1 / emitted of the lamp's flux. With `most`
+    /// photons no more paths are started; chunk.last becomes the first that was not.
     void trace(Chunk& chunk, double emitted, size_t most = std::numeric_limits<size_t>::max()) const;
 
   private:

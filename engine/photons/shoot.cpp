@@ -107,8 +107,8 @@ void append_by_triangle(std::span<const Chunk> chunks, size_t triangles, std::ve
         for (const Photon& photon : chunk.photons) records[next[photon.triangle / per_bucket]++] = photon;
 }
 
-/// Tasks on their way: while some are traced, the photons of those before are appended. Their buffers are used again and
-/// again, as fresh memory costs time.
+/// Tasks on their way: while some are traced, the photons of those before are appended. Their buffers are used again
+/// and again, as fresh memory costs time.
 class Waves {
   public:
     Waves(const PhotonTracer& tracer, size_t triangles, Photons& photons, Progress& progress)

@@ -13,7 +13,8 @@ nlohmann::json read_json(const std::filesystem::path& path);
 /// Indented by two spaces. Throws Error naming the file when it cannot be written.
 void write_json(const std::filesystem::path& path, const nlohmann::json& value);
 
-/// The number `key` of an entry, or `otherwise` without one. Throws Error naming `where` when it is no number up to 1e9.
+/// The number `key` of an entry, or `otherwise` without one. Throws Error naming `where` when it is no number up to
+/// 1e9.
 double number_in(const nlohmann::json& entry, const char* key, const std::string& where, double otherwise);
 /// "position": [x, y, z] of an entry, m. Throws Error naming `where` when there is none.
 glm::dvec3 position_in(const nlohmann::json& entry, const std::string& where);

@@ -1,5 +1,5 @@
-// Recorded walks: moments of a camera in a JSON file, and the view at any time between them. Files hold world positions in
-// metres and angles in degrees.
+// Recorded walks: moments of a camera in a JSON file, and the view at any time between them. Files hold world positions
+// in metres and angles in degrees.
 #pragma once
 #include <filesystem>
 #include <vector>

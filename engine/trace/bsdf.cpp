@@ -128,8 +128,9 @@ std::optional<Scatter> sample_smooth(const SurfaceReader& reader, const Surface&
     const float pdf = smooth_pdf(reader, s, l, to_view, *direction);
     if (!(pdf > 0)) return std::nullopt;
     const vec3 value = reader.eval_bsdf(s, l.n, to_view, *direction);
-    return Scatter{*direction, value * (std::abs(dot(l.n, *direction)) / pdf), pdf, false, false,
-                   choice < l.p_transmit + l.p_glossy && s.roughness < narrow_roughness};
+    return Scatter{*direction, value * (std::abs(dot(l.n, *direction)) / pdf),
+                   pdf,        false,
+                   false,      choice < l.p_transmit + l.p_glossy && s.roughness < narrow_roughness};
 }
 
 /// What a photon's weight has over that of a path from the eye (Veach 1997, equations 5.13 and 5.18).

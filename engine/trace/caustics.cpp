@@ -76,8 +76,7 @@ std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, s
                                   uint64_t wanted) {
     std::vector<double> flux(scene.lights.size(), 0);
     double sum = 0;
-    for (uint i = 0; i < flux.size(); ++i)
-        sum += flux[i] = luminance(weights[i]) * double(path.unit_flux(i));
+    for (uint i = 0; i < flux.size(); ++i) sum += flux[i] = luminance(weights[i]) * double(path.unit_flux(i));
     std::vector<uint64_t> paths(flux.size(), 0);
     for (size_t i = 0; i < flux.size(); ++i)
         if (flux[i] > 0) paths[i] = 1 + uint64_t(double(wanted) * flux[i] / sum);

@@ -1,7 +1,7 @@
 // Light of lamps by way of mirrors, polished metal and glass alone: what paths from the eye find not at all, or rarely.
-// Traced from the lamps and spread over a small radius; the mean over many independent sets with shrinking radii converges
-// to the truth (progressive photon mapping in its memoryless form, Knaus & Zwicker 2011). Used by the reference, not by the
-// maps.
+// Traced from the lamps and spread over a small radius; the mean over many independent sets with shrinking radii
+// converges to the truth (progressive photon mapping in its memoryless form, Knaus & Zwicker 2011). Used by the
+// reference, not by the maps.
 #pragma once
 #include <span>
 #include <vector>
@@ -19,8 +19,8 @@ struct CausticSettings {
     uint64_t set = 0;  // another set is independent of this one
 };
 
-/// True for a surface of nothing but lobes so narrow that light sampling hardly finds them: light by way of it is traced
-/// from the lamps.
+/// True for a surface of nothing but lobes so narrow that light sampling hardly finds them: light by way of it is
+/// traced from the lamps.
 bool casts_caustics(const Surface& s);
 
 /// True when the scene has a lamp of weight > 0 and a mirror, smooth glass or gloss that is

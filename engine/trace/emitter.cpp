@@ -45,8 +45,8 @@ uint clip_to_horizon(const std::array<vec3, 3>& corners, vec3 normal, std::array
     return count;
 }
 
-/// Integral of the cosine over the solid angle of a polygon above the horizon: half the sum, over its edges, of the angle
-/// they span times the cosine of the normal of their plane. Its sign follows the order of the corners.
+/// Integral of the cosine over the solid angle of a polygon above the horizon: half the sum, over its edges, of the
+/// angle they span times the cosine of the normal of their plane. Its sign follows the order of the corners.
 float cosine_integral(const std::array<vec3, 4>& corners, uint count, vec3 normal) {
     float sum = 0;
     for (uint i = 0; i < count; ++i) {
@@ -85,7 +85,8 @@ bool Emitters::is_even(uint index) const {
 
 vec3 Emitters::even_irradiance(uint index, vec3 point, vec3 normal) const {
     const Light& light = scene_.lights[index];
-    const bool both_sides = scene_.material_of(scene_.emitters[light.first_emitter].triangle).flags & material_double_sided;
+    const bool both_sides =
+        scene_.material_of(scene_.emitters[light.first_emitter].triangle).flags & material_double_sided;
     float sum = 0;
     for (uint i = 0; i < light.emitter_count; ++i) {
         const uvec3 c = scene_.triangles[scene_.emitters[light.first_emitter + i].triangle];

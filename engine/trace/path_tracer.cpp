@@ -60,7 +60,7 @@ vec3 PathTracer::direct(const Vertex& at, bool all_lamps, Rng& rng) const {
 
 vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, const Caustics* caustics, Rng& rng) const {
     vec3 sum(0), throughput(1), medium(0);
-    float distance = 0;  // since the last vertex that light sampling covers
+    float distance = 0;                          // since the last vertex that light sampling covers
     bool scattered = !first, by_mirror = false;  // has met a surface that shows caustics, and what casts them after it
     for (int depth = 0; depth < longest_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);

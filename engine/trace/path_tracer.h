@@ -16,8 +16,8 @@ class PathTracer {
     /// `weights`: RGB power of each lamp (light_weights()). All references must outlive the tracer.
     PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> weights);
 
-    /// One sample of the radiance arriving at `origin` from `direction`, cd/m2 per RGB. Unbiased, but for caustics: those
-    /// of points and suns are left out without `caustics`; with them, all are blurred over their radius.
+    /// One sample of the radiance arriving at `origin` from `direction`, cd/m2 per RGB. Unbiased, but for caustics:
+    /// those of points and suns are left out without `caustics`; with them, all are blurred over their radius.
     vec3 radiance(vec3 origin, vec3 direction, Rng& rng, const Caustics* caustics = nullptr) const;
 
     /// One sample of the irradiance at `point` on the side of unit `normal`, lux per RGB; caustics as above.

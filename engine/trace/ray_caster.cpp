@@ -20,8 +20,8 @@ constexpr int most_layers = 256;  // of holes and glass along a ray
 
 RTCScene as_scene(void* handle) { return static_cast<RTCScene>(handle); }
 
-/// Origin, start, direction and time are written as Embree reads them, 16 bytes at a time: of single floats just written it
-/// would have to wait for the memory.
+/// Origin, start, direction and time are written as Embree reads them, 16 bytes at a time: of single floats just
+/// written it would have to wait for the memory.
 RTCRay make_ray(vec3 origin, vec3 direction, float far) {
     using Floats = float __attribute__((vector_size(16)));
     const Floats from{origin.x, origin.y, origin.z, 0}, along{direction.x, direction.y, direction.z, 0};
@@ -133,8 +133,8 @@ float RayCaster::opacity(const Hit& hit) const {
 
 /// `number(hit)` in [0, 1) decides at surfaces that are partly there.
 template <class Choose>
-std::optional<Hit> RayCaster::nearest_chosen(vec3 origin, vec3 direction, float max_distance,
-                                             const Choose& number, std::vector<Hit>* passed_hits) const {
+std::optional<Hit> RayCaster::nearest_chosen(vec3 origin, vec3 direction, float max_distance, const Choose& number,
+                                             std::vector<Hit>* passed_hits) const {
     std::optional<Hit> hit = nearest_triangle(origin, direction, max_distance);
     if (!has_holes_) return hit;
     float passed = 0;
@@ -159,7 +159,8 @@ std::optional<Hit> RayCaster::nearest(vec3 origin, vec3 direction, float max_dis
 }
 
 std::optional<Hit> RayCaster::nearest(vec3 origin, vec3 direction, Rng& rng, std::vector<Hit>* passed) const {
-    return nearest_chosen(origin, direction, 1e30f, [&](const Hit&) { return rng.next(); }, passed);
+    return nearest_chosen(
+        origin, direction, 1e30f, [&](const Hit&) { return rng.next(); }, passed);
 }
 
 vec3 RayCaster::transmittance(vec3 from, vec3 to) const {

@@ -36,8 +36,8 @@ class RayCaster {
     /// when blocked, the tint of thin smooth glass, 1 - alpha of blends.
     vec3 transmittance(vec3 from, vec3 to) const;
 
-    /// Writes to `found` every triangle within `radius` m of a point. Returns false when there are more than `most`; then
-    /// some are missing.
+    /// Writes to `found` every triangle within `radius` m of a point. Returns false when there are more than `most`;
+    /// then some are missing.
     bool triangles_around(vec3 point, float radius, size_t most, std::vector<uint>& found) const;
 
     /// `point` moved off its surface along `normal` by a few units of float precision of the scene.

@@ -41,7 +41,8 @@ TEST(Fields, AreThoseOfLumenwalkMeasure) {
     cube.read(fields);
     const Field& field = fields.fields[0];
     EXPECT_TRUE(field.is_current);
-    const Survey survey = make_survey(cube.world.scene, cube.world.caster, *cube.map, {field.set}, {{"all", {vec3(1)}}}, {});
+    const Survey survey =
+        make_survey(cube.world.scene, cube.world.caster, *cube.map, {field.set}, {{"all", {vec3(1)}}}, {});
     const Statistics expected = statistics_of(survey.sets[0], survey.ambiances[0], 1);
     EXPECT_NEAR(field.statistics.average.value, expected.average.value, 0.01 * expected.average.value);
     EXPECT_NEAR(field.statistics.u0.value, expected.u0.value, 0.03);

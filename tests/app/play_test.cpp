@@ -51,8 +51,8 @@ TEST(Play, MakesThePicturesOfTheScreenshotProgramAndATableOfTimes) {
         difference += std::abs(int(first.rgb[i]) - int(divided.rgb[i])) / double(first.rgb.size());
     EXPECT_GT(difference, 0.05);
     EXPECT_LT(difference, 16) << "levels of 255";
-    const Outcome summed = run("", {cornell(), map, "--play", folder / "path.json", "--size", "64x48", "--divisor", "2",
-                                    "--samples", "6"});
+    const Outcome summed = run(
+        "", {cornell(), map, "--play", folder / "path.json", "--size", "64x48", "--divisor", "2", "--samples", "6"});
     EXPECT_NE(summed.out.find("6 views per pixel, 64x48, light at 32x24"), std::string::npos) << summed.out;
     EXPECT_EQ(run("", {cornell(), "--divisor", "5"}).exit_code, 2);
 }

@@ -82,7 +82,8 @@ TEST(Window, AClickCountsWhereItFellHoweverLateTheFrameIs) {
     xdotool("mousemove --window " + window.id() + " 30 100");  // on a panel, which takes what is clicked there
     pause_ms(1000);
     ASSERT_EQ(kill(window.process().id(), SIGSTOP), 0);
-    std::string words = "mousemove --window " + window.id() + " 400 88 click 1";  // the ceiling lamp, between the panels
+    std::string words =
+        "mousemove --window " + window.id() + " 400 88 click 1";  // the ceiling lamp, between the panels
     for (int i = 0; i < 10; ++i) words += " click 5";
     xdotool(words);
     ASSERT_EQ(kill(window.process().id(), SIGCONT), 0);
@@ -212,7 +213,8 @@ TEST(Window, GoesOnWhenItsDeviceIsLostAndGivesUpWhenItIsLostAgain) {
     WalkingWindow window("cube.gltf", {"--photons", "5000"});
     const Outcome outcome = window.wait();
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-    EXPECT_NE(outcome.err.find("lumenwalk: Vulkan: the graphics device was lost twice within a minute\n"), std::string::npos)
+    EXPECT_NE(outcome.err.find("lumenwalk: Vulkan: the graphics device was lost twice within a minute\n"),
+              std::string::npos)
         << outcome.err;
 }
 

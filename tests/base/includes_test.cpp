@@ -40,8 +40,8 @@ const std::map<std::string, std::vector<std::string>> fences = {
     {"GLFW/", {}},
     {"imgui", {}},
     {"spirv-tools/", {"gpu/specialize."}},
-    {"nlohmann/", {"scene/ambiance.", "scene/json_file.", "scene/recorded_path.", "scene/gltf_file.",
-                   "scene/gltf_ranges."}},
+    {"nlohmann/",
+     {"scene/ambiance.", "scene/json_file.", "scene/recorded_path.", "scene/gltf_file.", "scene/gltf_ranges."}},
 };
 
 struct Include {

@@ -1,5 +1,5 @@
-// The device's ray queries give the pictures of the traversal in compute. Skipped where no device has them; tools/test runs
-// these tests on a newer software rasterizer too (tools/newer-mesa).
+// The device's ray queries give the pictures of the traversal in compute. Skipped where no device has them; tools/test
+// runs these tests on a newer software rasterizer too (tools/newer-mesa).
 #include <gtest/gtest.h>
 
 #include <algorithm>

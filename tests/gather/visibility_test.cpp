@@ -121,10 +121,9 @@ Scene wires(uint count, bool close_on_both_sides = false) {
         const float row = number(-0.4f, 0.4f), close = number(0.06f, 0.3f), far = number(10, 1000);
         const vec2 right = close_on_both_sides ? vec2(number(1, 3), close) : vec2(far, far);
         const auto first = uint(scene.positions.size());
-        scene.positions.insert(scene.positions.end(),
-                               {{number(-3, -0.1f), row * close, -close},
-                                {right.x, row * right.y, -right.y},
-                                {right.x, (row + number(0, 0.005f)) * right.y, -right.y}});
+        scene.positions.insert(scene.positions.end(), {{number(-3, -0.1f), row * close, -close},
+                                                       {right.x, row * right.y, -right.y},
+                                                       {right.x, (row + number(0, 0.005f)) * right.y, -right.y}});
         scene.normals.insert(scene.normals.end(), 3, vec3(0, 0, 1));
         scene.triangles.emplace_back(first, first + 1, first + 2);
         scene.triangle_objects.push_back(0);

@@ -82,7 +82,8 @@ struct FloorLight {
                 const Surface s = estimator.surface_at(hit->triangle, hit->barycentrics);
                 Gathered sum{};
                 const auto place = estimator.place_on(estimator.map_of(hit->triangle, true), s.position);
-                estimator.add_caustics(hit->triangle, true, 1, place, s, s.geometric_normal, s.normal, vec3(0, 1, 0), sum);
+                estimator.add_caustics(hit->triangle, true, 1, place, s, s.geometric_normal, s.normal, vec3(0, 1, 0),
+                                       sum);
                 got[size_t(z / fine * squares + x / fine)] += luminance(sum.irradiance) / (fine * fine);
             }
     }

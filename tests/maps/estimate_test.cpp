@@ -303,8 +303,10 @@ TEST(Estimate, LightOfCellsHoldsSmallLampsAsTheyAre) {
     PhotonMap without_masks = map;
     without_masks.shadow_masks.clear();
     const GatherSettings no_rays{gather_mode_cached, 300, 0};
-    const PhotonEstimator by_masks(scene, map, weights, no_rays, bvh), by_nodes(scene, without_masks, weights, no_rays, bvh);
-    const Difference masks = compare_everywhere(by_masks, exact, scene), nodes = compare_everywhere(by_nodes, exact, scene);
+    const PhotonEstimator by_masks(scene, map, weights, no_rays, bvh),
+        by_nodes(scene, without_masks, weights, no_rays, bvh);
+    const Difference masks = compare_everywhere(by_masks, exact, scene),
+                     nodes = compare_everywhere(by_nodes, exact, scene);
     EXPECT_LT(std::abs(masks.bias), 0.003);
     EXPECT_LT(masks.rmse, 0.03);
     EXPECT_LT(masks.rmse, 0.6 * nodes.rmse);
@@ -328,7 +330,8 @@ TEST(Packing, RoundTripsWithinItsStep) {
         const float degree = lw_pi / 180;
         vec3 mean(0);
         for (int k = 0; k < 256; ++k) {
-            const vec3 near = unpack_direction(pack_direction(d, vec2(float(k % 16) + 0.5f, float(k / 16) + 0.5f) / 16.0f));
+            const vec3 near =
+                unpack_direction(pack_direction(d, vec2(float(k % 16) + 0.5f, float(k / 16) + 0.5f) / 16.0f));
             EXPECT_GT(dot(d, near), std::cos(2.0f * degree));
             mean += near;
         }

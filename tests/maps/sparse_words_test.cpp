@@ -43,7 +43,8 @@ TEST(SparseWords, ThatDoNotFitAreRefused) {
     EXPECT_FALSE(accepted(65, [](SparseWords&) {}));
     EXPECT_FALSE(accepted(33, [](SparseWords& w) { w.values.pop_back(); }));
     EXPECT_FALSE(accepted(33, [](SparseWords& w) { w.values.push_back(1); }));
-    EXPECT_FALSE(accepted(33, [](SparseWords& w) { w.marks.back() |= 2u, w.values.push_back(1); }));  // beyond the words
+    EXPECT_FALSE(
+        accepted(33, [](SparseWords& w) { w.marks.back() |= 2u, w.values.push_back(1); }));  // beyond the words
 }
 
 }  // namespace

@@ -95,9 +95,13 @@ void expect_honest(const Coverage& c) {
     std::printf("covered %zu of %zu trusted of %zu lit, bias %+.2f %%\n", c.covered, c.trusted, c.lit, 100 * c.bias);
 }
 
-TEST(Interval, CoversTheTruthInTheFurnishedRoom) { expect_honest(coverage_of("apartment.glb", "apartment", 200'000, 1)); }
+TEST(Interval, CoversTheTruthInTheFurnishedRoom) {
+    expect_honest(coverage_of("apartment.glb", "apartment", 200'000, 1));
+}
 
-TEST(Interval, CoversTheTruthInTheCornellBox) { expect_honest(coverage_of_bakes("cornell.gltf", "cornell", 200'000, 6)); }
+TEST(Interval, CoversTheTruthInTheCornellBox) {
+    expect_honest(coverage_of_bakes("cornell.gltf", "cornell", 200'000, 6));
+}
 
 }  // namespace
 }  // namespace lw

@@ -54,9 +54,9 @@ void expect_same(const Baked& baked, uint mode, uint width, uint height) {
         if (seen[i].triangle == ~0u) continue;
         const Surface s = estimator.surface_at(seen[i].triangle, seen[i].barycentrics);
         if (s.light >= 0) continue;
-        const Gathered expected =
-            estimator.estimate(seen[i].triangle, seen[i].barycentrics, normalize(camera.position - s.position),
-                               estimator.hash_uint(uint(i) + estimator.hash_uint(0)), uvec2(uint(i) % width, uint(i) / width));
+        const Gathered expected = estimator.estimate(
+            seen[i].triangle, seen[i].barycentrics, normalize(camera.position - s.position),
+            estimator.hash_uint(uint(i) + estimator.hash_uint(0)), uvec2(uint(i) % width, uint(i) / width));
         const double e = dot(expected.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
         ++compared;
         // A photon exactly at the kernel's rim may fall on either side in float arithmetic of another order.
@@ -77,8 +77,8 @@ TEST(Agreement, ShaderEqualsCpuEstimateInTheCornellBox) {
     expect_same(baked, 2, 64, 64);
 }
 
-/// Views at rest go on with the points on lamps where the last one ended: sixteen views of four rays err like one view of 64,
-/// where independent ones would err half as much again.
+/// Views at rest go on with the points on lamps where the last one ended: sixteen views of four rays err like one view
+/// of 64, where independent ones would err half as much again.
 TEST(Agreement, ViewsAtRestCompleteEachOther) {
     const Baked baked("cornell.gltf", 20000);
     const Device device(DeviceSettings{"", true});

@@ -119,7 +119,8 @@ TEST(GlassPhotons, BringTheLightOfThePathTracerByMetalAndGloss) {
         double error = 0;
         const double truth = traced_lux(scene, caster, lamp, at.x, at.z, at.half, 15000, &caustics, error);
         const std::array<double, 4> lux = floor_lux(scene, photons, lamp, at.x, at.z, at.half);
-        EXPECT_NEAR((lux[0] + lux[1] + lux[2] + lux[3]) / truth, 1, 0.02 + 4 * error / truth) << room.file << " " << at.lamp;
+        EXPECT_NEAR((lux[0] + lux[1] + lux[2] + lux[3]) / truth, 1, 0.02 + 4 * error / truth)
+            << room.file << " " << at.lamp;
     }
 }
 

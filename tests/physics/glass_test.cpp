@@ -98,10 +98,10 @@ TEST(Furnace, SamplesOfEveryWhiteMaterialHaveItsAlbedo) {
 TEST(Furnace, WhatTheCachedModeTakesForTheAlbedoIsTheIntegralOfTheBrdf) {
     const Scene empty;
     const SurfaceReader reader(empty);
-    for (const auto& [metallic, base, ior] : {std::array{1.0f, 1.0f, 1.5f},  // white metal
-                                              std::array{1.0f, 0.3f, 1.5f}, std::array{0.0f, 0.5f, 1.5f},
-                                              std::array{0.0f, 0.0f, 1.5f}, std::array{0.0f, 0.5f, 4.0f},
-                                              std::array{0.0f, 0.5f, 0.0f}})  // reflects everything
+    for (const auto& [metallic, base, ior] :
+         {std::array{1.0f, 1.0f, 1.5f},  // white metal
+          std::array{1.0f, 0.3f, 1.5f}, std::array{0.0f, 0.5f, 1.5f}, std::array{0.0f, 0.0f, 1.5f},
+          std::array{0.0f, 0.5f, 4.0f}, std::array{0.0f, 0.5f, 0.0f}})  // reflects everything
         for (float roughness : {0.25f, 0.4f, 0.6f, 0.8f, 1.0f})
             for (float z : {1.0f, 0.8f, 0.5f, 0.3f}) {
                 Surface s = dielectric(roughness, 0, false);
@@ -287,7 +287,8 @@ TEST(Glass, AViewOfAFurnaceShowsItsRadianceWhateverStandsInIt) {
         {"narrow lobe", [&](Material& m) { mirror(m), m.roughness = 0.2f; }},
         {"blend of a mirror", [&](Material& m) { mirror(m), m.flags |= material_alpha_blend, m.alpha = 0.4f; }},
         {"rough ball", [](Material& m) { m.absorption = vec3(0), m.roughness = 0.2f; }},
-        {"white paint under varnish", [](Material& m) { m.transmission = 0, m.base_color = vec3(1), m.roughness = 0.1f; }},
+        {"white paint under varnish",
+         [](Material& m) { m.transmission = 0, m.base_color = vec3(1), m.roughness = 0.1f; }},
     };
     for (const Case& c : cases) {
         const Scene scene = furnace_with(thing, solid, c.change);
@@ -295,8 +296,8 @@ TEST(Glass, AViewOfAFurnaceShowsItsRadianceWhateverStandsInIt) {
         double error = 0;
         const double truth = mean_radiance(scene, eye, ball, error);
         const RayCaster caster(scene);
-        const PhotonMap map = build_photon_map(
-            scene, caster, shoot_photons(scene, caster, {1'000'000, 1}), {1'000'000, 0, 60, 1});
+        const PhotonMap map =
+            build_photon_map(scene, caster, shoot_photons(scene, caster, {1'000'000, 1}), {1'000'000, 0, 60, 1});
         const Bvh bvh = build_bvh(scene);
         const std::vector<vec3> weights = light_weights(scene, {});
         for (uint mode : {gather_mode_cached, gather_mode_smooth}) {

@@ -89,29 +89,33 @@ void expect_agreement(const Room& room, const std::vector<std::string>& material
 
 TEST(Gloss, APolishedFloorShowsWhatThePathTracerShowsAtEveryRoughness) {
     for (float roughness : {0.0f, 0.1f, 0.3f, 0.6f})
-        expect_agreement(Room("glossy_floor.gltf",
-                              [&](Scene& scene) { material_named(scene, "polished").roughness = roughness; }, 300000),
+        expect_agreement(Room(
+                             "glossy_floor.gltf",
+                             [&](Scene& scene) { material_named(scene, "polished").roughness = roughness; }, 300000),
                          {"polished"}, 0.01);
 }
 
 TEST(Gloss, RoughWallsThatReflectMuchShowWhatThePathTracerShows) {
-    const Room room("cornell.gltf",
-                    [](Scene& scene) {
-                        Material& white = material_named(scene, "white");
-                        white.ior = 4, white.roughness = 1, white.specular = 1;
-                    },
-                    300000);
-    expect_agreement(room, {"white"}, 0.03);  // the cached mode takes light between walls as coming from all sides alike
+    const Room room(
+        "cornell.gltf",
+        [](Scene& scene) {
+            Material& white = material_named(scene, "white");
+            white.ior = 4, white.roughness = 1, white.specular = 1;
+        },
+        300000);
+    expect_agreement(room, {"white"},
+                     0.03);  // the cached mode takes light between walls as coming from all sides alike
 }
 
 TEST(Gloss, RoughWallsThatReflectMuchUnderAPointLampToo) {
-    const Room room("cube.gltf",
-                    [](Scene& scene) {
-                        Material& grey = material_named(scene, "grey");
-                        grey.base_color = vec3(0.05f);
-                        grey.ior = 4, grey.roughness = 1, grey.specular = 1;
-                    },
-                    300000);
+    const Room room(
+        "cube.gltf",
+        [](Scene& scene) {
+            Material& grey = material_named(scene, "grey");
+            grey.base_color = vec3(0.05f);
+            grey.ior = 4, grey.roughness = 1, grey.specular = 1;
+        },
+        300000);
     expect_agreement(room, {"grey"}, 0.02);
 }
 
@@ -126,22 +130,24 @@ TEST(Gloss, AGlassBallAndATintedSheetShowWhatThePathTracerShows) {
 }
 
 TEST(Gloss, RoughGlassShowsWhatThePathTracerShows) {
-    const Room room("glass_sphere.gltf",
-                    [](Scene& scene) {
-                        material_named(scene, "solid").roughness = 0.4f;
-                        material_named(scene, "sheet").roughness = 0.4f;
-                    },
-                    300000);
+    const Room room(
+        "glass_sphere.gltf",
+        [](Scene& scene) {
+            material_named(scene, "solid").roughness = 0.4f;
+            material_named(scene, "sheet").roughness = 0.4f;
+        },
+        300000);
     expect_agreement(room, {"sheet", "solid"}, 0.03, 1024, 64);  // both find by chance only what rough glass throws
 }
 
 TEST(Gloss, ABlendedSheetIsLaidOverWhatIsBehind) {
-    const Room room("glass_sphere.gltf",
-                    [](Scene& scene) {
-                        Material& m = material_named(scene, "sheet");
-                        m.transmission = 0, m.specular = 0, m.flags |= material_alpha_blend, m.alpha = 0.3f;
-                    },
-                    300000);
+    const Room room(
+        "glass_sphere.gltf",
+        [](Scene& scene) {
+            Material& m = material_named(scene, "sheet");
+            m.transmission = 0, m.specular = 0, m.flags |= material_alpha_blend, m.alpha = 0.3f;
+        },
+        300000);
     expect_agreement(room, {"sheet"}, 0.02);
 }
 

@@ -163,7 +163,8 @@ TEST(FailingMachines, MeasureWritesOverNoInputAndNoFileTwice) {
     expect_refusal(measured({"--reflections", walk, "--reflections-csv", walk}), "is an input");
     expect_refusal(measured({"--csv", folder / "a", "--report", folder / "./a"}), "written twice");
     expect_refusal(measured({"--photons", "1000", "--save-map", folder / "b", "--csv", folder / "b"}), "written twice");
-    expect_refusal(run("", {scene, "--play", walk, "--size", "16x16", "--timings", folder / "cube.pmap"}), "is an input");
+    expect_refusal(run("", {scene, "--play", walk, "--size", "16x16", "--timings", folder / "cube.pmap"}),
+                   "is an input");
     EXPECT_EQ(before, (std::vector<std::string>{read_text(scene), read_text(points), read_text(walk),
                                                 read_text(folder / "cube.pmap")}));
     EXPECT_EQ(folder.names(), (Words{"cube.gltf", "cube.pmap", "points.csv", "walk.json"}));

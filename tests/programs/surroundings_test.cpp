@@ -40,8 +40,9 @@ class Surroundings : public testing::Test {
     static void SetUpTestSuite() {
         folder = std::make_unique<TempFolder>();
         write_text(*folder / "points.csv", "desk,0,0.1,0\n");
-        ASSERT_EQ(in_shell(*folder, "$BIN/lumenwalk-bake $CUBE -o map --photons 2000 &&"
-                                    "$BIN/lumenwalk-reference $CUBE -o a.exr --size 8x8 --samples 1")
+        ASSERT_EQ(in_shell(*folder,
+                           "$BIN/lumenwalk-bake $CUBE -o map --photons 2000 &&"
+                           "$BIN/lumenwalk-reference $CUBE -o a.exr --size 8x8 --samples 1")
                       .exit_code,
                   0);
     }
@@ -97,12 +98,12 @@ TEST_F(Surroundings, InputsThatHaveNoEndOrAreNoFilesAreRefused) {
     std::filesystem::create_symlink("loop", *folder / "loop");
     ASSERT_EQ(mkfifo((*folder / "pipe").c_str(), 0600), 0);  // which nobody writes to
     for (const char* input : {"/dev/zero", "/dev/null", "/dev/random", "loop", ".", "pipe"})
-        for (const char* line : {"$BIN/lumenwalk-bake @ -o made", "$BIN/lumenwalk-bake $CUBE -o made --ies lamp=@",
-                                 "$BIN/lumenwalk-reference @ -o made.exr", "$BIN/lumenwalk-compare a.exr @",
-                                 "$BIN/lumenwalk-measure @ --points points.csv",
-                                 "$BIN/lumenwalk-measure $CUBE @ --points points.csv",
-                                 "$BIN/lumenwalk-measure $CUBE map --points @",
-                                 "$BIN/lumenwalk-screenshot $CUBE @ -o made.png", "$BIN/lumenwalk $CUBE --play @"}) {
+        for (const char* line :
+             {"$BIN/lumenwalk-bake @ -o made", "$BIN/lumenwalk-bake $CUBE -o made --ies lamp=@",
+              "$BIN/lumenwalk-reference @ -o made.exr", "$BIN/lumenwalk-compare a.exr @",
+              "$BIN/lumenwalk-measure @ --points points.csv", "$BIN/lumenwalk-measure $CUBE @ --points points.csv",
+              "$BIN/lumenwalk-measure $CUBE map --points @", "$BIN/lumenwalk-screenshot $CUBE @ -o made.png",
+              "$BIN/lumenwalk $CUBE --play @"}) {
             std::string words = line;
             words.replace(words.find('@'), 1, input);
             expect_refusal(in_shell(*folder, words), input);
@@ -113,10 +114,10 @@ TEST_F(Surroundings, InputsThatHaveNoEndOrAreNoFilesAreRefused) {
 TEST_F(Surroundings, NamesThatSteerATerminalAreToldInOnePlainLine) {
     for (const char* program : {"bake", "reference", "measure", "screenshot", "compare", ""}) {
         const std::string name = "no\n\x1b[31mscene.png";
-        const Words words = std::string(program) == "measure" ? Words{name, "--points", "points.csv"}
+        const Words words = std::string(program) == "measure"   ? Words{name, "--points", "points.csv"}
                             : std::string(program) == "compare" ? Words{name, name}
-                            : std::string(program).empty()    ? Words{name, "--play", "path.json"}
-                                                              : Words{name, "-o", "made.exr"};
+                            : std::string(program).empty()      ? Words{name, "--play", "path.json"}
+                                                                : Words{name, "-o", "made.exr"};
         const Outcome outcome = run(program, words);
         expect_refusal(outcome, "no??[31mscene.png");
         EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos) << program;
@@ -206,8 +207,10 @@ TEST_F(Surroundings, ALimitOfMemoryIsAskedFirstAndToldWithWhatWouldFit) {
 TEST_F(Surroundings, APictureThatIsTooLargeForTheDeviceIsToldWithWhatWouldFit) {
     SKIP_WITHOUT_LAVAPIPE();
     const auto shot = [&](const std::string& size) {
-        return in_shell(*folder, "$BIN/lumenwalk-screenshot $CUBE map -o made.png --frames 1 --gather smooth "
-                                 "--device llvmpipe --device-memory 0.05 --size " + size);
+        return in_shell(*folder,
+                        "$BIN/lumenwalk-screenshot $CUBE map -o made.png --frames 1 --gather smooth "
+                        "--device llvmpipe --device-memory 0.05 --size " +
+                            size);
     };
     const Outcome outcome = shot("4000x3000");
     expect_refusal(outcome, "a picture of 4000x3000 takes about ");
@@ -218,8 +221,9 @@ TEST_F(Surroundings, APictureThatIsTooLargeForTheDeviceIsToldWithWhatWouldFit) {
 TEST(CommandLines, WithNumbersThatAreNoneAreRefusedWith2) {
     const std::string points = "/nowhere/points.csv";
     const std::vector<std::pair<std::string, Words>> options = {
-        {"measure", {"--maintenance", "--error", "--reflections-step", "--least-luminance", "--least-ratio",
-                     "--least-solid-angle"}},
+        {"measure",
+         {"--maintenance", "--error", "--reflections-step", "--least-luminance", "--least-ratio",
+          "--least-solid-angle"}},
         {"reference", {"--caustic-radius", "--time", "--error"}},
         {"screenshot", {"--followed-roughness", "--exposure", "--device-memory"}},
         {"bake", {"--neighbour-angle", "--radius", "--memory"}},

@@ -102,7 +102,8 @@ TEST(NoNumber, IsReadWhereAllPhotonsLieInOnePoint) {
     const std::vector<vec3> weights = light_weights(baked.scene, {});
     const std::vector<Photon> all = baked.photons.records;
     for (const uint triangle : {0u, 1u, 2u, 3u}) {  // of some the point is read at a distance of exactly 0
-        const auto photon = std::find_if(all.begin(), all.end(), [&](const Photon& p) { return p.triangle == triangle; });
+        const auto photon =
+            std::find_if(all.begin(), all.end(), [&](const Photon& p) { return p.triangle == triangle; });
         ASSERT_NE(photon, all.end());
         baked.photons.records.assign(500, *photon);
         for (Photon& p : baked.photons.records) p.position = surface.corner_position(triangle, 0);

@@ -290,8 +290,8 @@ double rmse_of(const std::vector<float>& a, const std::vector<float>& b) {
 
 /// Of those that change what the shaders compute with: places, sizes, sides, triangles that hardly have any. Each takes
 /// seconds of making pipelines; that shaders and CPU estimate the same is the business of other tests.
-constexpr const char* drawn[] = {"_away",   "wide_by", "mirrored",     "inside_out",
-                                 "mixed_w", "million", "needles",      "of_denormal"};
+constexpr const char* drawn[] = {"_away",   "wide_by", "mirrored", "inside_out",
+                                 "mixed_w", "million", "needles",  "of_denormal"};
 
 TEST(RobustnessOnADevice, TheRoomHasTheSamePicture) {
     SKIP_WITHOUT_LAVAPIPE();

@@ -75,8 +75,8 @@ TEST(Sums, OfSixteenMillionEqualPhotonsAtALatticeNodeDoNotDrift) {
     double sum = 0;
     for (const vec4& part : parts) sum += double(part.y);
     const double expected = double(even.map.places.size()) / 16 * M_PI * double(grid.radius) * double(grid.radius) / 2;
-    tell_case("sum of 17 million equal photons at a node of a lattice", "N flux under the kernel, +-0.001 %", "%+.5f %%",
-              100 * (sum / expected - 1));
+    tell_case("sum of 17 million equal photons at a node of a lattice", "N flux under the kernel, +-0.001 %",
+              "%+.5f %%", 100 * (sum / expected - 1));
     EXPECT_NEAR(sum / expected, 1, 1e-5);
 }
 

@@ -161,9 +161,9 @@ TEST(GltfTextures, AnImageWithoutAUsableSourceLeavesItsFactor) {
 TEST(GltfTextures, AnImageOfMoreTexelsThanCanBeCountedIsRefused) {
     const std::string header = "P5 100000 100000 255\n";  // a PGM
     const std::string uri = "data:image/png;base64," + base64({header.begin(), header.end()});
-    EXPECT_NE(error_of([&] { textured(uri).load(); })
-                  .find("image 0 \"picture\": the textures have more than 2^32 texels"),
-              std::string::npos);
+    EXPECT_NE(
+        error_of([&] { textured(uri).load(); }).find("image 0 \"picture\": the textures have more than 2^32 texels"),
+        std::string::npos);
 }
 
 TEST(GltfTextures, BilinearSamplesMeetAtTexelCentres) {

@@ -6,13 +6,15 @@ namespace lw {
 
 /// Records read, by kind.
 struct Reads {
-    uint64_t surfaces = 0, grids = 0, cells = 0, photons = 0, photon_light = 0, directions = 0, nodes = 0, triangles = 0, words = 0;
+    uint64_t surfaces = 0, grids = 0, cells = 0, photons = 0, photon_light = 0, directions = 0, nodes = 0,
+             triangles = 0, words = 0;
 
     /// As they lie on the device: 96 bytes for the corners of a triangle, 36 for their positions alone.
     double bytes() const {
         return double(surfaces) * (96 + sizeof(Material)) + double(grids) * sizeof(SurfaceGrid) +
                double(cells) * sizeof(uvec4) + double(photons) * sizeof(PhotonPlace) +
-               4 * double(photon_light + words) + 2 * double(directions) + double(nodes) * sizeof(BvhNode) + 40 * double(triangles);
+               4 * double(photon_light + words) + 2 * double(directions) + double(nodes) * sizeof(BvhNode) +
+               40 * double(triangles);
     }
 };
 

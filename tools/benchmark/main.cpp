@@ -51,9 +51,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_flag("--quick", o.quick, "fewer photons, pixels and samples: minutes on two cores");
     app.add_option("--only", o.only, "measure this section; may be repeated")->check(CLI::IsMember(names));
     app.add_option("--device", o.device, "part of the name of a Vulkan device; default: the fastest kind");
-    app.add_option("--rays", o.rays, lw::rays_help)
-        ->check(CLI::IsMember(lw::rays_names))
-        ->capture_default_str();
+    app.add_option("--rays", o.rays, lw::rays_help)->check(CLI::IsMember(lw::rays_names))->capture_default_str();
     app.add_option("-o,--output", o.folder, "folder for benchmark.csv, benchmark.json, a CSV per table and references/")
         ->capture_default_str();
     app.add_option("--write", o.document,
