@@ -31,11 +31,11 @@ void Baking::run() {
 void Baking::bake(uint64_t photons, bool is_full) {
     {
         const std::lock_guard lock(mutex_);
-        stage_ = is_full ? "" : "preview: ";
+        renderer_ = is_full ? "" : "preview: ";
     }
     const BakeSettings settings{photons, 0, BakeSettings{}.neighbour_angle_deg, BakeSettings{}.seed, false};
-    const Photons shot = shoot_photons(scene_, caster_, {settings.photons, settings.seed, false});
-    PhotonMap map = build_photon_map(scene_, caster_, shot, settings);
+    const Photons request = shoot_photons(scene_, caster_, {settings.photons, settings.seed, false});
+    PhotonMap map = build_photon_map(scene_, caster_, request, settings);
     if (board_.is_cancelled()) throw Error("cancelled");
     std::string trouble;
     if (is_full && !settings_.output.empty()) {
@@ -62,7 +62,7 @@ std::optional<ProgressBoard::State> Baking::progress() const {
     const std::lock_guard lock(mutex_);
     if (done_) return std::nullopt;
     ProgressBoard::State state = board_.state();
-    state.what = stage_ + state.what;
+    state.what = renderer_ + state.what;
     return state;
 }
 

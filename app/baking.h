@@ -41,7 +41,7 @@ class Baking {
     mutable std::mutex mutex_;
     std::optional<PhotonMap> ready_;
     std::string message_;
-    std::string stage_;
+    std::string renderer_;
     bool done_ = false;
     std::thread thread_;
 };

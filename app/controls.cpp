@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/metering.h"
-#include "app/panels.h"
+#include "app/measuring/metering.h"
+#include "app/panels/panels.h"
 
 namespace lw {
 namespace {
@@ -28,7 +28,7 @@ float held(const Window& window, std::initializer_list<int> keys) {
 }
 
 void toggle_flying(Session& s) {
-    s.flight.reset();
+    s.transition.reset();
     if (!s.walker.flying) {
         s.walker.flying = true;
         tell(s, "flying: Space and Ctrl go up and down", 2);
@@ -80,10 +80,10 @@ void apply_key(Session& s, Window& window, const KeyPress& press) {
             s.keys = !s.keys;
             return;
         case GLFW_KEY_F2:
-            s.picture_wish = Wish::save;
+            s.picture_request = PictureRequest::save;
             return;
         case GLFW_KEY_F3:
-            s.picture_wish = Wish::copy;
+            s.picture_request = PictureRequest::copy;
             return;
         case GLFW_KEY_G:
             return toggle_field_choice(s);

@@ -1,7 +1,7 @@
 // What keys, mouse and gamepad mean.
 #pragma once
-#include "app/session.h"
-#include "app/window.h"
+#include "app/session/session.h"
+#include "app/window/window.h"
 
 namespace lw {
 

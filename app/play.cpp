@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "app/adapt.h"
+#include "app/picture/exposure.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/replaced_file.h"
@@ -19,10 +19,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct FrameTimes {
-    double seconds;     // of the path
-    StageTimes passes;  // of all samples
-    StageTimes first;   // of the first
-    double all_ms;      // from the first command recorded to the last one done
+    double seconds;        // of the path
+    RendererTimes passes;  // of all samples
+    RendererTimes first;   // of the first
+    double all_ms;         // from the first command recorded to the last one done
 };
 
 double median(std::vector<double> values) {
@@ -30,21 +30,22 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-Rgb8Image read_screen(const Device& device, const Stage& stage, vk::Extent2D size) {
+Rgb8Image read_screen(const Device& device, const ProgressiveRenderer& renderer, vk::Extent2D size) {
     Rgb8Image image{int(size.width), int(size.height), {}};
-    for (uint32_t code : read_back<uint32_t>(device, stage.screen(), image.pixel_count()))
+    for (uint32_t code : read_back<uint32_t>(device, renderer.screen(), image.pixel_count()))
         for (int shift : {0, 8, 16}) image.rgb.push_back(uint8_t(code >> shift & 0xffu));
     return image;
 }
 
 /// One frame, all its samples, made and waited for.
-FrameTimes make_frame_of(const Device& device, Stage& stage, const Shot& shot, const Look& look) {
+FrameTimes make_frame_of(const Device& device, ProgressiveRenderer& renderer, const FrameRequest& request,
+                         const DisplaySettings& display) {
     FrameTimes times{};
-    stage.forget();
+    renderer.forget();
     const Clock::time_point start = Clock::now();
-    for (uint i = 0; i < shot.most_samples; ++i) {
-        submit_and_wait(device, [&](vk::CommandBuffer commands) { stage.record(commands, shot, look, 0); });
-        const StageTimes pass = stage.times(0);
+    for (uint i = 0; i < request.max_samples; ++i) {
+        submit_and_wait(device, [&](vk::CommandBuffer commands) { renderer.record(commands, request, display, 0); });
+        const RendererTimes pass = renderer.times(0);
         times.passes.visibility_ms += pass.visibility_ms;
         times.passes.gather_ms += pass.gather_ms;
         times.passes.view_ms += pass.view_ms;
@@ -125,8 +126,8 @@ void play(const PlaySettings& settings) {
         check_can_create(settings.timings, inputs);
     }
     const Device device(settings.device);
-    Stage stage(device, world.scene, map, world.bvh);
-    stage.resize(settings.size);
+    ProgressiveRenderer renderer(device, world.scene, map, world.bvh);
+    renderer.resize(settings.size);
     Viewing viewing;
     viewing.auto_exposure = !settings.exposure_ev;
     viewing.exposure_ev = settings.exposure_ev.value_or(0);
@@ -134,14 +135,14 @@ void play(const PlaySettings& settings) {
     std::vector<FrameTimes> frames;
     uint divisor = std::max(1u, settings.divisor);
     const auto make = [&](size_t i) {
-        Shot shot;
-        shot.camera = camera_on(path, double(i) / path.frames_per_second, world.scene);
-        shot.lamps_a = factors;
-        shot.gather = settings.gather;
-        shot.most_samples = settings.samples;
-        shot.divisor = divisor;
-        shot.sharpens = false;
-        FrameTimes times = make_frame_of(device, stage, shot, {{}, viewing.exposure_ev});
+        FrameRequest request;
+        request.camera = camera_on(path, double(i) / path.frames_per_second, world.scene);
+        request.factors_a = factors;
+        request.gather = settings.gather;
+        request.max_samples = settings.samples;
+        request.divisor = divisor;
+        request.sharpens = false;
+        FrameTimes times = make_frame_of(device, renderer, request, {{}, viewing.exposure_ev});
         times.seconds = double(i) / path.frames_per_second;
         return times;
     };
@@ -149,12 +150,12 @@ void play(const PlaySettings& settings) {
     Divisor automatic;
     if (settings.divisor == 0) divisor = automatic.next(0, make(0).first, true);
     for (size_t i = 0; i < count; ++i) {
-        adapt_to(viewing, stage.glance(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));
+        adapt_to(viewing, renderer.readback(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));
         frames.push_back(make(i));
         if (settings.divisor == 0) divisor = automatic.next(0, frames.back().first, false);
         if (settings.frames.empty()) continue;
-        check_is_light(stage.read_values());
-        write_png(frame_name(settings.frames, i), read_screen(device, stage, settings.size));
+        check_is_light(renderer.read_values());
+        write_png(frame_name(settings.frames, i), read_screen(device, renderer, settings.size));
     }
     if (!settings.timings.empty()) write_timings(settings.timings, frames);
     print_rate(frames, settings);

@@ -1,6 +1,6 @@
 // Replays a recorded walk frame by frame, without a window: pictures, times, or both.
 #pragma once
-#include "app/session.h"
+#include "app/session/session.h"
 
 namespace lw {
 

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "app/baking.h"
-#include "app/field_reader.h"
-#include "app/show.h"
+#include "app/measuring/field_reader.h"
+#include "app/picture/viewer.h"
 #include "base/error.h"
 #include "gpu/commands.h"
 #include "scene/camera.h"
@@ -13,7 +13,7 @@
 namespace lw {
 namespace {
 
-constexpr double least_seconds_between_losses = 60;
+constexpr double min_seconds_between_losses = 60;
 
 void refuse_validation_messages(const Device& device) {
     const std::vector<std::string> messages = device.validation_messages();
@@ -22,7 +22,7 @@ void refuse_validation_messages(const Device& device) {
 }
 
 /// Takes a finished map, and tells what went wrong.
-void follow_baking(Baking& baking, Session& session, SharedMap& map, Show& show) {
+void follow_baking(Baking& baking, Session& session, SharedMap& map, Viewer& show) {
     if (std::optional<PhotonMap> ready = baking.take()) {
         map = std::make_shared<const PhotonMap>(std::move(*ready));
         show.set_map(map);
@@ -57,7 +57,7 @@ struct Work {
 
 /// Runs on one device until the window closes or the scene is to be loaded anew.
 void run(Window& window, const WalkthroughSettings& settings, Session& session, Work& work) {
-    Show show(window, session, settings.device, settings.vsync);
+    Viewer show(window, session, settings.device, settings.vsync);
     if (work.map) show.set_map(work.map);
     while (!window.closes() && !session.reload) {
         if (work.baking) follow_baking(*work.baking, session, work.map, show);
@@ -79,7 +79,7 @@ void run_on_devices(Window& window, const WalkthroughSettings& settings, Session
         } catch (const vk::SystemError& failure) {
             throw Error(std::string("Vulkan: ") + failure.what());
         }
-        if (Window::now() - lost < least_seconds_between_losses)
+        if (Window::now() - lost < min_seconds_between_losses)
             throw Error("Vulkan: the graphics device was lost twice within a minute");
         lost = Window::now();
         tell(session, "the graphics device was lost: starting it again", 8);

@@ -48,8 +48,8 @@ float ggx_d_v(float alpha, float nh, float nl, float nv) LW_MEMBER {
 
 /// True when the surface reflects nothing but a mirror-like lobe or refracts: no photon is stored on it.
 bool is_purely_specular(Surface s) LW_MEMBER {
-    bool mirror = s.metallic > 0.999f && s.roughness * s.roughness < smallest_alpha;
-    bool glass = s.transmission > 0.999f && s.metallic < 0.001f && s.roughness * s.roughness < smallest_alpha;
+    bool mirror = s.metallic > 0.999f && s.roughness * s.roughness < min_alpha;
+    bool glass = s.transmission > 0.999f && s.metallic < 0.001f && s.roughness * s.roughness < min_alpha;
     return mirror || glass;
 }
 
@@ -85,7 +85,7 @@ float lobe_pdf(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
     float alpha = s.roughness * s.roughness;
     vec3 h = to_view + to_light;
     float h_length = length(h);
-    if (alpha < smallest_alpha || h_length < 1e-6f) return 0.0f;
+    if (alpha < min_alpha || h_length < 1e-6f) return 0.0f;
     return visible_normal_density(alpha, clamp(dot(n, h) / h_length, 0.0f, 1.0f), max(dot(n, to_view), 1e-4f)) / 4.0f;
 }
 
@@ -110,7 +110,7 @@ BrdfParts brdf_parts(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
     float dielectric_diffuse = passed_by_fresnel(fresnel);
     vec3 metal_fresnel = s.base_color + (vec3(1.0f) - s.base_color) * schlick_weight(vh);
     float alpha = s.roughness * s.roughness;
-    float lobe = alpha < smallest_alpha ? 0.0f : ggx_d_v(alpha, clamp(dot(n, h), 0.0f, 1.0f), nl, nv);
+    float lobe = alpha < min_alpha ? 0.0f : ggx_d_v(alpha, clamp(dot(n, h), 0.0f, 1.0f), nl, nv);
     f.diffuse = s.base_color * ((1.0f - s.metallic) * (1.0f - s.transmission) / lw_pi) * dielectric_diffuse;
     f.specular = (fresnel * (1.0f - s.metallic) + metal_fresnel * s.metallic) * lobe;
     return f;
@@ -129,12 +129,12 @@ vec3 eval_brdf(Surface s, vec3 n, vec3 to_view, vec3 to_light, bool diffuse_only
 
 /// True when what a sheet transmits goes straight on: shadow rays pass it, and light through it is still direct.
 bool passes_straight(Surface s) LW_MEMBER {
-    return (s.flags & material_thin) != 0u && s.roughness * s.roughness < smallest_alpha;
+    return (s.flags & material_thin) != 0u && s.roughness * s.roughness < min_alpha;
 }
 
 /// True when the transmission has no spread: smooth, or a volume of the index of air, which bends nothing.
 bool transmits_smoothly(Surface s) LW_MEMBER {
-    return s.roughness * s.roughness < smallest_alpha || (refracts(s) && abs(s.ior - 1.0f) < 1e-3f);
+    return s.roughness * s.roughness < min_alpha || (refracts(s) && abs(s.ior - 1.0f) < 1e-3f);
 }
 
 /// Part of the light met at `cosine` that the transmission lobe carries on, roughness aside.

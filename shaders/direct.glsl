@@ -1,7 +1,7 @@
 // Exact direct light by shadow rays through the BVH: one ray for a point, spot or directional lamp, `shadow_rays` for
 // an emissive mesh; none where the cell knows what a lamp lights, all over or by a mask; with shadow_rays = 0 none at
 // all, and shadows as sharp as masks and lattice. One text for C++ and GLSL. The including scope provides what
-// gather.glsl and rays.glsl need, the array emitters, the functions light_at, light_weight, profile_value, cell_word,
+// gather.glsl and rays.glsl need, the array emitters, the functions light_at, light_power, profile_value, cell_word,
 // shadow_mask, and the constants has_mesh_lamps, has_profiles, has_emissive_textures, has_visible_lamps,
 // has_shadow_masks, has_smooth_caustics, has_shadow_rays, has_followed, light_count, shadow_rays, lobe_paths (per pixel
 // along a lobe), ray_epsilon, scene_size.
@@ -97,7 +97,7 @@ uint hash_uint(uint x) LW_MEMBER {  // Wellons 2018, "lowbias32"
 }
 
 /// What is known of the light of one lamp at a place.
-struct Sight {
+struct LampVisibility {
     vec3 passed;   // the part that arrives, unless
     bool by_rays;  // only rays tell
     bool in_cell;  // the light of the cell holds it: but for a lobe
@@ -158,19 +158,20 @@ bool shows_points_behind(Surface s) LW_MEMBER {
 }
 
 /// `bits` are what the cell knows of the lamp, `mask` its shadow mask, if it has one.
-Sight sight_of(uint bits, uint mask, vec2 f, Surface s) LW_MEMBER {
-    Sight sight;
-    sight.in_cell = gather_mode == gather_mode_cached && (bits & in_cell_light) != 0u;
-    sight.passed = vec3(1.0f);
+LampVisibility lamp_visibility(uint bits, uint mask, vec2 f, Surface s) LW_MEMBER {
+    LampVisibility visible;
+    visible.in_cell = gather_mode == gather_mode_cached && (bits & in_cell_light) != 0u;
+    visible.passed = vec3(1.0f);
     bool behind = shows_points_behind(s);
-    sight.by_rays = has_shadow_rays && (behind || (bits & (some_visible | some_hidden)) != some_visible);
-    if (!has_shadow_rays && has_visible_lamps) sight.passed = vec3(corners_set(bits >> 4, f));  // on no map: of no lamp
+    visible.by_rays = has_shadow_rays && (behind || (bits & (some_visible | some_hidden)) != some_visible);
+    if (!has_shadow_rays && has_visible_lamps)
+        visible.passed = vec3(corners_set(bits >> 4, f));  // on no map: of no lamp
     if (has_shadow_masks && !behind && (bits & has_shadow_mask) != 0u) {
         uvec4 points = shadow_mask(mask);
-        sight.by_rays = has_shadow_rays && is_edge(points, f);
-        if (!sight.by_rays) sight.passed = lit_part(points, f) * unpack_rgb9e5(points.z);
+        visible.by_rays = has_shadow_rays && is_edge(points, f);
+        if (!visible.by_rays) visible.passed = lit_part(points, f) * unpack_rgb9e5(points.z);
     }
-    return sight;
+    return visible;
 }
 
 /// Which points of mesh lamps are looked at: elements of the R2 sequence (Roberts 2018), shifted by `seed` (Cranley &
@@ -196,12 +197,12 @@ vec2 lamp_point(LampPoints points, uint lamp, uint element) LW_MEMBER {
 }
 
 /// Adds the light of lamp `i`, as much as arrives.
-void add_lamp(uint i, Sight sight, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LampPoints points,
-              LW_INOUT(Gathered) sum) LW_MEMBER {
+void add_lamp(uint i, LampVisibility visible, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
+              LampPoints points, LW_INOUT(Gathered) sum) LW_MEMBER {
     Light lamp = light_at(i);
     bool mesh = lamp.type == light_mesh;
     bool beside_rays = leaves_lobe_out(s) && mesh;  // of its lobe, rays see the other part
-    vec3 weight = light_weight(i) * sight.passed;
+    vec3 weight = light_power(i) * visible.passed;
     uint samples = mesh ? max(shadow_rays, 1u) : 1u;
     for (uint j = 0u; j < samples; ++j) {
         LightSample light = sample_punctual(lamp, s.position);
@@ -212,13 +213,13 @@ void add_lamp(uint i, Sight sight, Surface s, vec3 n_geometric, vec3 n_shading, 
         if (shows_points_behind(s) && !mesh && cos_geometric < 0.0f)
             sum.radiance += transmitted_light(s, n_geometric, n_shading, to_view, light, incoming);
         if (cos_geometric <= 0.0f || max(incoming.x, max(incoming.y, incoming.z)) <= 0.0f) continue;
-        if (has_shadow_rays && sight.by_rays)
+        if (has_shadow_rays && visible.by_rays)
             incoming *=
                 shadow_ray(s.position + n_geometric * ray_epsilon, light.to_light, light.far - 2.0f * ray_epsilon);
         BrdfParts f = brdf_parts(s, n_shading, to_view, light.to_light);
         if (beside_rays) f.specular *= share_of_sample(s, n_shading, to_view, light);
-        if (sight.in_cell) f.diffuse = vec3(0.0f);
-        if (!sight.in_cell) sum.irradiance += incoming * cos_geometric;
+        if (visible.in_cell) f.diffuse = vec3(0.0f);
+        if (!visible.in_cell) sum.irradiance += incoming * cos_geometric;
         sum.radiance += incoming * max(dot(n_shading, light.to_light), 0.0f) * (f.diffuse + f.specular);
     }
 }
@@ -231,7 +232,7 @@ uint lamp_bits(MapPlace at, uint word) LW_MEMBER {
 }
 
 /// True for a lobe, neither mirror nor wide, whose reflection of mesh lamps is sampled at the lamps too.
-bool samples_lobe(Surface s) LW_MEMBER { return leaves_lobe_out(s) && s.roughness * s.roughness >= smallest_alpha; }
+bool samples_lobe(Surface s) LW_MEMBER { return leaves_lobe_out(s) && s.roughness * s.roughness >= min_alpha; }
 
 /// One bit per lamp of a word of a cell, at its lowest: set for those of a pair that a pixel has to add. Hidden ones
 /// are skipped, and in the cached mode those that the light of the cell holds, unless a lobe is to show them.
@@ -254,8 +255,9 @@ uint first_shadow_mask(MapPlace at, uint word) LW_MEMBER {
 }
 
 /// What is known of the lamp whose bits begin at `shift` in its word.
-Sight sight_in_word(MapPlace at, uint bits, uint shift, uint first_mask, Surface s) LW_MEMBER {
-    return sight_of((bits >> shift) & 255u, first_mask + bitCount(bits & 0x08080808u & ((1u << shift) - 1u)), at.f, s);
+LampVisibility lamp_visibility_in_word(MapPlace at, uint bits, uint shift, uint first_mask, Surface s) LW_MEMBER {
+    return lamp_visibility((bits >> shift) & 255u, first_mask + bitCount(bits & 0x08080808u & ((1u << shift) - 1u)),
+                           at.f, s);
 }
 
 /// Adds the direct light of one pair of lamps at a place.
@@ -266,7 +268,7 @@ void add_direct(MapPlace at, uint pair, Surface s, vec3 n_geometric, vec3 n_shad
     uint first_mask = first_shadow_mask(at, word);
     for (uint todo = lamps_to_add(bits, pair, s); todo != 0u; todo &= todo - 1u) {
         uint shift = uint(findLSB(todo));
-        Sight sight = sight_in_word(at, bits, shift, first_mask, s);
-        add_lamp(word * cell_lamps_per_word + shift / 8u, sight, s, n_geometric, n_shading, to_view, points, sum);
+        LampVisibility visible = lamp_visibility_in_word(at, bits, shift, first_mask, s);
+        add_lamp(word * cell_lamps_per_word + shift / 8u, visible, s, n_geometric, n_shading, to_view, points, sum);
     }
 }

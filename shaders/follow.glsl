@@ -81,9 +81,9 @@ mat3 basis_around(vec3 n) LW_MEMBER {
 }
 
 /// The normal of a facet that the eye sees: of a mirror `n` itself.
-vec3 facet_normal(Surface s, vec3 n, vec3 to_eye, vec2 u) LW_MEMBER {
+vec3 microfacet_normal(Surface s, vec3 n, vec3 to_eye, vec2 u) LW_MEMBER {
     float alpha = s.roughness * s.roughness;
-    if (alpha < smallest_alpha) return n;
+    if (alpha < min_alpha) return n;
     mat3 basis = basis_around(n);
     float r = sqrt(u.x);
     float phi = 2.0f * lw_pi * u.y;
@@ -93,7 +93,7 @@ vec3 facet_normal(Surface s, vec3 n, vec3 to_eye, vec2 u) LW_MEMBER {
 /// The part of the facets the eye sees that see the light too: height-correlated Smith G2 / G1; 1 for a mirror.
 float unmasked_part(Surface s, float nl, float nv) LW_MEMBER {
     float alpha = s.roughness * s.roughness;
-    if (alpha < smallest_alpha) return 1.0f;
+    if (alpha < min_alpha) return 1.0f;
     float a2 = alpha * alpha;
     float view = sqrt(nv * nv * (1.0f - a2) + a2);
     float light = sqrt(nl * nl * (1.0f - a2) + a2);
@@ -106,7 +106,7 @@ bool is_inside(Seen seen) LW_MEMBER { return !seen.front && refracts(seen.surfac
 ViewRay reflected_ray(Seen seen, vec3 medium, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
     vec3 n = seen.n_shading;
-    vec3 h = facet_normal(s, n, seen.to_eye, u);
+    vec3 h = microfacet_normal(s, n, seen.to_eye, u);
     float vh = dot(h, seen.to_eye);
     float nv = max(dot(n, seen.to_eye), 1e-4f);
     ViewRay ray;
@@ -134,7 +134,7 @@ ViewRay straight_ray(Seen seen, ViewRay before) LW_MEMBER {
 ViewRay transmitted_ray(Seen seen, ViewRay before, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
     vec3 n = seen.n_shading;
-    vec3 h = transmits_smoothly(s) ? n : facet_normal(s, n, seen.to_eye, u);
+    vec3 h = transmits_smoothly(s) ? n : microfacet_normal(s, n, seen.to_eye, u);
     float vh = max(dot(h, seen.to_eye), 1e-4f);
     float nv = max(dot(n, seen.to_eye), 1e-4f);
     bool inside = is_inside(seen);
@@ -245,7 +245,7 @@ PathEnd end_nowhere() LW_MEMBER {
 }
 
 /// How likely a path goes on from a surface by each way, in sum 1, or all 0.
-struct Ways {
+struct LobeProbabilities {
     float here;  // not at all: the light of the diffuse lobe is gathered, and of small lamps, which no ray meets, by
                  // rough ones
     float reflected;
@@ -253,29 +253,29 @@ struct Ways {
 };
 
 /// By what the facet does that the lobes sample with `u`: beside one that reflects totally, others may pass.
-Ways ways_on(Seen seen, vec2 u) LW_MEMBER {
+LobeProbabilities lobe_probabilities(Seen seen, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
-    float nv = max(dot(facet_normal(s, seen.n_shading, seen.to_eye, u), seen.to_eye), 1e-4f);
+    float nv = max(dot(microfacet_normal(s, seen.n_shading, seen.to_eye, u), seen.to_eye), 1e-4f);
     vec3 fresnel = dielectric_fresnel(s, nv, is_inside(seen));
-    Ways ways;
-    ways.here =
+    LobeProbabilities chance;
+    chance.here =
         largest(s.base_color) * max(passed_by_fresnel(fresnel), 0.0f) * (1.0f - s.transmission) * (1.0f - s.metallic);
-    ways.reflected = largest(specular_reflectance(s, nv, is_inside(seen)));
-    ways.through = has_transmission ? largest(transmitted_part(s, nv, is_inside(seen))) : 0.0f;
-    if (has_direct && s.roughness * s.roughness >= smallest_alpha)
-        ways.here = max(ways.here, least_part_here * (ways.reflected + ways.through));
-    float sum = max(ways.here + ways.reflected + ways.through, 1e-20f);
-    ways.here /= sum;
-    ways.reflected /= sum;
-    ways.through /= sum;
-    return ways;
+    chance.reflected = largest(specular_reflectance(s, nv, is_inside(seen)));
+    chance.through = has_transmission ? largest(transmitted_part(s, nv, is_inside(seen))) : 0.0f;
+    if (has_direct && s.roughness * s.roughness >= min_alpha)
+        chance.here = max(chance.here, min_part_here * (chance.reflected + chance.through));
+    float sum = max(chance.here + chance.reflected + chance.through, 1e-20f);
+    chance.here /= sum;
+    chance.reflected /= sum;
+    chance.through /= sum;
+    return chance;
 }
 
 /// Follows a ray by way of mirrors, glass and holes to the first surface that shows light of its own lobes. `last`: no
 /// path goes on from there.
 PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
     PathEnd end = end_nowhere();
-    for (uint met = 1u; met <= most_followed_surfaces; ++met) {
+    for (uint met = 1u; met <= max_followed_surfaces; ++met) {
         if (!(largest(ray.weight) > 0.0f)) return end;
         vec2 barycentrics = vec2(0.0f);
         uint triangle = nearest_triangle(ray.origin, ray.direction, 2.0f * scene_size, barycentrics);
@@ -296,25 +296,25 @@ PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
         end.glow += ray.weight * own_radiance(s, seen.front) * share_of_ray(s, ray);
         if ((s.flags & material_unlit) != 0u) return end;
         vec2 u = lobe_numbers(numbers, met);
-        Ways ways = ways_on(seen, u);
-        bool smooth_lobe = s.roughness * s.roughness < smallest_alpha;
+        LobeProbabilities chance = lobe_probabilities(seen, u);
+        bool smooth_lobe = s.roughness * s.roughness < min_alpha;
         bool passes = is_glass(s) || (smooth_lobe && s.metallic > 0.5f);
-        if (!passes || (choice >= ways.through + ways.reflected && ways.here > 1e-4f)) {
+        if (!passes || (choice >= chance.through + chance.reflected && chance.here > 1e-4f)) {
             end.at.triangle = triangle;
             end.at.barycentrics = barycentrics;
             end.at.eye = ray.origin;
-            end.at.weight = passes ? ray.weight / ways.here : ray.weight;
-            bool on = !passes && !last && !smooth_lobe && reflects_narrowly(s) && ways.reflected > strong_lobe;
+            end.at.weight = passes ? ray.weight / chance.here : ray.weight;
+            bool on = !passes && !last && !smooth_lobe && reflects_narrowly(s) && chance.reflected > strong_lobe;
             end.at.flags = (passes ? followed_leaves_lobe : 0u) | (on ? followed_goes_on | followed_leaves_lobe : 0u);
             return end;
         }
         vec3 weight = ray.weight;
-        if (choice < ways.through) {
+        if (choice < chance.through) {
             ray = transmitted_ray(seen, ray, u);
-            ray.weight /= ways.through;
+            ray.weight /= chance.through;
         } else {
             ray = reflected_ray(seen, ray.medium, u);
-            ray.weight *= weight / ways.reflected;
+            ray.weight *= weight / chance.reflected;
             if (!has_direct) ray.pdf = 0.0f;  // no light samples beside it
         }
     }
@@ -343,7 +343,7 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
     following.paths = 1u;
     PathNumbers numbers = path_numbers(pixel, following, 0u);
     PathEnd end = follow(first_ray(seen, branch, numbers), numbers, false);
-    for (uint depth = 0u; depth < most_lobes; ++depth) {
+    for (uint depth = 0u; depth < max_lobes; ++depth) {
         light.radiance += end.glow;
         Followed at = end.at;
         if (at.triangle == no_map) return;
@@ -359,7 +359,7 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
         numbers = path_numbers(pixel, following, 0u);
         ViewRay ray = reflected_ray(far, vec3(0.0f), lobe_numbers(numbers, 0u));
         ray.weight *= at.weight;
-        end = follow(ray, numbers, depth + 2u == most_lobes);
+        end = follow(ray, numbers, depth + 2u == max_lobes);
     }
 }
 

@@ -7,13 +7,13 @@ namespace lw {
 #endif
 
 /// Surfaces that a followed view path meets at most: mirrors, both sides of glass, holes.
-LW_CONST uint most_followed_surfaces = 16u;
+LW_CONST uint max_followed_surfaces = 16u;
 /// A lobe that brings so much of what a surface shows is worth a path of its own where a path ends ...
 LW_CONST float strong_lobe = 0.25f;
 /// ... until so many lobes were followed one after another.
-LW_CONST uint most_lobes = 4u;
+LW_CONST uint max_lobes = 4u;
 /// At rough glass, how often a path ends to gather the light of small lamps, beside how often it goes on.
-LW_CONST float least_part_here = 0.5f;
+LW_CONST float min_part_here = 0.5f;
 
 /// The ways on from a surface, each with its own list of pixels behind those of the rays.
 LW_CONST uint branch_reflected = 0u;
@@ -33,7 +33,7 @@ LW_CONST uint followed_leaves_lobe = 1u;   // the specular lobe is not gathered:
 LW_CONST uint followed_goes_on = 2u;       // another path goes on along the lobe
 LW_CONST uint followed_is_looked_at = 4u;  // the pixel's illuminance is of this place
 
-LW_CONST uint most_paths = 1024u;  // of a pixel, in one frame
+LW_CONST uint max_paths = 1024u;  // of a pixel, in one frame
 
 /// Which of the paths of a pixel is followed.
 struct Following {
@@ -53,7 +53,7 @@ LW_INLINE Following unpack_following(uint bits) {
 }
 
 #ifdef __cplusplus
-static_assert(most_lobes <= 4 && most_paths < 1 << 14);
+static_assert(max_lobes <= 4 && max_paths < 1 << 14);
 static_assert(sizeof(Followed) == 40 && offsetof(Followed, flags) == 36);
 }  // namespace lw
 #endif

@@ -28,7 +28,7 @@ LW_CONST uint binding_cell_light = 12u;  // RGBA32
 LW_CONST uint binding_cell_words = 13u;
 LW_CONST uint binding_bvh_nodes = 14u;  // RGBA32, BvhNode
 LW_CONST uint binding_bvh_triangles = 15u;
-LW_CONST uint binding_looks = 16u;         // RGBA32, look_texels for each Material
+LW_CONST uint binding_materials = 16u;     // RGBA32, material_texels for each Material
 LW_CONST uint binding_lamp_powers = 17u;   // RGBA32F, LampPower
 LW_CONST uint binding_caustic_maps = 18u;  // RG32 per triangle: map of the front, of the back; empty without caustics
 LW_CONST uint binding_shadow_masks = 19u;  // RGBA32
@@ -38,11 +38,11 @@ LW_CONST uint binding_lights = 21u;  // from here on storage buffers
 LW_CONST uint binding_emitters = 22u;
 LW_CONST uint scene_binding_count = 23u;
 LW_CONST uint binding_acceleration = 23u;  // where rays are traced by ray queries
-LW_CONST uint look_texels = 16u;
+LW_CONST uint material_texels = 16u;
 LW_CONST uint texture_texels = 2u;
 
 // Photon records beyond the device's texel buffers are split into chunks of 2^shift records, one descriptor each.
-LW_CONST uint most_chunks = 4u;
+LW_CONST uint max_chunks = 4u;
 
 LW_CONST uint binding_visibility = 0u;
 LW_CONST uint binding_radiance = 1u;
@@ -154,7 +154,7 @@ struct Screen {
 
 #ifdef __cplusplus
 static_assert(offsetof(Material, absorption) == 72 && offsetof(Material, base_color_texture) == 84);
-static_assert(sizeof(Material) <= 16 * look_texels && sizeof(Texture) <= 16 * texture_texels);
+static_assert(sizeof(Material) <= 16 * material_texels && sizeof(Texture) <= 16 * texture_texels);
 static_assert(sizeof(LampPower) == 32 && sizeof(RayPixels) == 16 && sizeof(Screen) == 12);
 static_assert(sizeof(Frame) == 124 && offsetof(Frame, following) == 120);
 }  // namespace lw

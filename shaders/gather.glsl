@@ -1,6 +1,6 @@
 // Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
 // The including scope provides the functions grid_at, is_cut (false for no_map), cell_start, photon_place, photon_flux,
-// photon_direction, light_weight, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode,
+// photon_direction, light_power, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode,
 // neighbours, heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage,
 // has_followed. Needs photon_map.h and bsdf.glsl.
 
@@ -16,7 +16,7 @@ Gathered no_light() LW_MEMBER {
 /// True for a photon that no followed ray can stand for: a ray may meet a mirrored mesh lamp, but no mirrored point or
 /// sun.
 bool is_unseen_by_rays(Surface s, PhotonPlace photon) LW_MEMBER {
-    if (!has_caustics || path_of(photon) != path_caustic || s.roughness * s.roughness < smallest_alpha) return false;
+    if (!has_caustics || path_of(photon) != path_caustic || s.roughness * s.roughness < min_alpha) return false;
     return light_at(light_of(photon)).type != light_mesh;
 }
 
@@ -26,11 +26,11 @@ bool leaves_lobe_out(Surface s) LW_MEMBER { return has_followed && (s.flags & lo
 /// Adds photon `i` of the record `place`, weighted by `kernel`, to sums that add_up() completes.
 void add_photon(uint i, PhotonPlace place, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
-    vec3 flux = unpack_rgb9e5(photon_flux(i)) * light_weight(light_of(place)) * kernel;
+    vec3 flux = unpack_rgb9e5(photon_flux(i)) * light_power(light_of(place)) * kernel;
     sum.irradiance += flux;
     if (!has_directions) return;
     bool lobe_left_out = leaves_lobe_out(s) && !is_unseen_by_rays(s, place);
-    s.roughness = max(s.roughness, narrowest_gathered_roughness);
+    s.roughness = max(s.roughness, min_gathered_roughness);
     vec3 to_light = unpack_direction(photon_direction(i));
     float cos_shading = dot(n_shading, to_light);
     float cos_geometric = max(dot(n_geometric, to_light), 0.05f);
@@ -249,7 +249,7 @@ float coverage_at(MapPlace at, float radius) LW_MEMBER {
                     at.f.x);
     float high = mix(unpack_coverage(node_coverage(above), fraction),
                      unpack_coverage(node_coverage(above + 1u), fraction), at.f.x);
-    return max(mix(low, high, at.f.y), least_coverage);
+    return max(mix(low, high, at.f.y), min_coverage);
 }
 
 /// The irradiance computed ahead at the corners of the cell, all lamps at their present power; light from all sides

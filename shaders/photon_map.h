@@ -49,12 +49,12 @@ LW_INLINE uint behind_cut(SurfaceGrid cut, vec3 position) {
 }
 
 LW_CONST uint surface_grid_texels = 7u;  // of 16 bytes
-LW_CONST uint most_cuts_deep = 48u;      // one after the other
+LW_CONST uint max_cuts_deep = 48u;       // one after the other
 
 /// Coverage of the kernels of radius R/4, R/2, 3R/4 and R of a map with largest radius R, one byte each.
 LW_CONST uint coverage_levels = 4u;
 LW_CONST float coverage_unit = 160.0f;  // the byte of coverage 1
-LW_CONST float least_coverage = 0.05f;
+LW_CONST float min_coverage = 0.05f;
 
 LW_CONST float caustic_neighbours = 120.0f;  // photons under the kernel of a caustic
 
@@ -103,7 +103,7 @@ struct PhotonPlace {
 };
 
 /// Specular lobes of surfaces smoother than this glTF roughness are followed by rays; see docs/decisions/0007.
-LW_CONST float widest_followed_roughness = 0.75f;
+LW_CONST float max_followed_roughness = 0.75f;
 
 /// How photons become light.
 LW_CONST uint gather_mode_exact = 0u;    // the k nearest photons, with a heap: the paper's way
@@ -113,7 +113,7 @@ LW_CONST uint gather_mode_inspect = 3u;  // no light: what the smooth estimate s
 
 /// Photons cannot resolve a narrower lobe: below this glTF roughness the highlight is widened, which keeps its energy
 /// and trades its sharpness for freedom from blotches.
-LW_CONST float narrowest_gathered_roughness = 0.55f;
+LW_CONST float min_gathered_roughness = 0.55f;
 
 /// What the photons around a point say. radiance in cd/m2, irradiance in lux per RGB channel.
 struct Gathered {

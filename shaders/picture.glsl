@@ -13,9 +13,9 @@ layout(set = 0, binding = binding_emitters, scalar) readonly buffer Emitters { E
 layout(set = 0, binding = binding_caustic_maps) uniform utextureBuffer caustic_maps;
 layout(set = 0, binding = binding_grids) uniform utextureBuffer grids;
 layout(set = 0, binding = binding_cell_starts) uniform utextureBuffer cell_starts;
-layout(set = 0, binding = binding_places) uniform utextureBuffer places[most_chunks];
-layout(set = 0, binding = binding_fluxes) uniform utextureBuffer fluxes[most_chunks];
-layout(set = 0, binding = binding_directions) uniform utextureBuffer directions[most_chunks];
+layout(set = 0, binding = binding_places) uniform utextureBuffer places[max_chunks];
+layout(set = 0, binding = binding_fluxes) uniform utextureBuffer fluxes[max_chunks];
+layout(set = 0, binding = binding_directions) uniform utextureBuffer directions[max_chunks];
 layout(set = 0, binding = binding_coverage) uniform utextureBuffer coverage;
 layout(set = 0, binding = binding_cell_light) uniform utextureBuffer light_of_cells;
 layout(set = 0, binding = binding_cell_words) uniform utextureBuffer words_of_cells;
@@ -123,7 +123,7 @@ uint cell_word(uint word) { return texelFetch(words_of_cells, int(word)).x; }
 
 uvec4 shadow_mask(uint i) { return texelFetch(shadow_masks, int(i)); }
 
-vec3 light_weight(uint light) { return texelFetch(lamp_powers, int(2u * light)).xyz; }
+vec3 light_power(uint light) { return texelFetch(lamp_powers, int(2u * light)).xyz; }
 
 vec3 lamp_factor(uint light) { return texelFetch(lamp_powers, int(2u * light + 1u)).xyz; }
 
@@ -202,7 +202,7 @@ void follow_pixel(uint pixel) {
         ray = reflected_ray(see_followed(before), vec3(0.0f), lobe_numbers(numbers, 0u));
         ray.weight *= before.weight;
     }
-    PathEnd end = follow(ray, numbers, following.depth + 1u == most_lobes);
+    PathEnd end = follow(ray, numbers, following.depth + 1u == max_lobes);
     end.at.flags |= looked_at;
     followed[pixel] = end.at;
     if (luminance(end.glow) > 0.0f)

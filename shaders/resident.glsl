@@ -42,7 +42,7 @@ layout(set = 0, binding = binding_uv1) uniform textureBuffer uv1;
 layout(set = 0, binding = binding_colors) uniform textureBuffer colors;
 layout(set = 0, binding = binding_tangents) uniform textureBuffer tangents;
 layout(set = 0, binding = binding_texels) uniform textureBuffer texels;
-layout(set = 0, binding = binding_looks) uniform utextureBuffer looks;
+layout(set = 0, binding = binding_materials) uniform utextureBuffer looks;
 layout(set = 0, binding = binding_textures) uniform utextureBuffer texture_records;
 
 vec3 corner_position(uint triangle, uint c) { return texelFetch(corners, int(6u * triangle + 2u * c)).xyz; }
@@ -72,7 +72,7 @@ TextureSlot texture_slot(int look, int i) {
 }
 
 Material material_of(uint triangle) {
-    int look = int(look_texels * texelFetch(triangles, int(triangle)).z);
+    int look = int(material_texels * texelFetch(triangles, int(triangle)).z);
     uvec4 t[6];
     for (int k = 0; k < 6; ++k) t[k] = texelFetch(looks, look + k);
     Material m;

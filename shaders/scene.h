@@ -97,7 +97,7 @@ struct Emitter {
 
 LW_CONST float lw_pi = 3.14159265358979f;
 /// Smallest GGX alpha that is evaluated as a lobe; smoother surfaces are followed as mirrors.
-LW_CONST float smallest_alpha = 1e-3f;
+LW_CONST float min_alpha = 1e-3f;
 
 /// The surface as the BRDF sees it.
 struct Surface {

@@ -13,12 +13,12 @@ layout(constant_id = constant_has_lines) const bool has_lines = true;
 layout(constant_id = constant_has_split) const bool has_split = true;
 layout(constant_id = constant_is_scaled) const bool is_scaled = true;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
-layout(constant_id = constant_is_glance) const bool is_glance = false;
+layout(constant_id = constant_is_readback) const bool is_readback = false;
 layout(set = 0, binding = binding_view_light) uniform textureBuffer light;
 layout(set = 0, binding = binding_view_other) uniform textureBuffer other;
 layout(set = 0, binding = binding_view_visibility) uniform utexture2D visibility;
 layout(set = 0, binding = binding_view_screen, scalar) writeonly buffer Codes { uint codes[]; };
-layout(set = 0, binding = binding_view_glance, scalar) writeonly buffer Glances { Glance glances[]; };
+layout(set = 0, binding = binding_view_readback, scalar) writeonly buffer Glances { ReadbackPixel readback_pixels[]; };
 
 float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
@@ -107,31 +107,31 @@ vec3 color_at(vec2 at, bool right_side) {
     return has_lines && is_on_line(at, right_side) ? vec3(0.02f) : color;
 }
 
-/// The pixel that stands for a cell of the glance; none beyond it or in a screen of fewer pixels.
-uvec2 pixel_of_glance(uvec2 cell) {
-    uvec2 cells = uvec2(glance_columns, glance_rows);
+/// The pixel that stands for a cell of the readback; none beyond it or in a screen of fewer pixels.
+uvec2 pixel_of_readback(uvec2 cell) {
+    uvec2 cells = uvec2(readback_columns, readback_rows);
     uvec2 xy = (2u * cell + 1u) * push.screen / (2u * cells);
     return cell.x < cells.x && cell.y < cells.y && xy * cells / push.screen == cell ? xy : push.screen;
 }
 
-void give_glance(uvec2 cell, vec2 at, bool right_side) {
-    Glance g;
+void write_readback(uvec2 cell, vec2 at, bool right_side) {
+    ReadbackPixel g;
     vec4 shown = light_at_screen(at, right_side ? 1u : 0u);
     g.luminance = luminance(shown.xyz);
     g.illuminance = shown.w;
     g.value = value_at(at, right_side);
     g.seen = depth_at(at) > 0.0f ? 1.0f : 0.0f;
-    glances[cell.y * glance_columns + cell.x] = g;
+    readback_pixels[cell.y * readback_columns + cell.x] = g;
 }
 
 void main() {
-    uvec2 xy = is_glance ? pixel_of_glance(gl_GlobalInvocationID.xy) : gl_GlobalInvocationID.xy;
+    uvec2 xy = is_readback ? pixel_of_readback(gl_GlobalInvocationID.xy) : gl_GlobalInvocationID.xy;
     if (xy.x >= push.screen.x || xy.y >= push.screen.y) return;
     vec2 at = vec2(xy) + 0.5f;
     float edge = push.split * float(push.screen.x);
     bool right_side = has_split && at.x > edge;
-    if (is_glance) {
-        give_glance(gl_GlobalInvocationID.xy, at, right_side);
+    if (is_readback) {
+        write_readback(gl_GlobalInvocationID.xy, at, right_side);
         return;
     }
     vec3 color = color_at(at, right_side);

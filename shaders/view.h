@@ -27,22 +27,22 @@ LW_CONST uint binding_view_light = 0u;  // A: RGB cd/m2, lx; sums over its sampl
 LW_CONST uint binding_view_other = 1u;  // B, or what an estimate stands on (shaders/inspect.glsl)
 LW_CONST uint binding_view_visibility = 2u;
 LW_CONST uint binding_view_screen = 3u;
-LW_CONST uint binding_view_glance = 4u;
+LW_CONST uint binding_view_readback = 4u;
 
 // Specialization constants of the view pass: some devices run both sides of a branch.
 LW_CONST uint constant_view = 0u;
 LW_CONST uint constant_curve = 1u;
 LW_CONST uint constant_has_lines = 2u;
 LW_CONST uint constant_has_split = 3u;
-LW_CONST uint constant_is_scaled = 4u;  // picture and screen differ in size
-LW_CONST uint constant_is_glance = 5u;  // an invocation per cell of the glance instead of per pixel
+LW_CONST uint constant_is_scaled = 4u;    // picture and screen differ in size
+LW_CONST uint constant_is_readback = 5u;  // an invocation per cell of the readback instead of per pixel
 LW_CONST uint view_constant_count = 6u;
 
 /// A grid of pixels whose values go back to the CPU each frame, for exposure and ranges.
-LW_CONST uint glance_columns = 64u;
-LW_CONST uint glance_rows = 36u;
+LW_CONST uint readback_columns = 64u;
+LW_CONST uint readback_rows = 36u;
 
-struct Glance {
+struct ReadbackPixel {
     float luminance;    // cd/m2 of A, right of the split of B
     float illuminance;  // lx, likewise
     float value;        // what the view shows in false colours
@@ -130,7 +130,7 @@ LW_INLINE vec3 view_color(uint view, float value, float low, float high, bool lo
 }
 
 #ifdef __cplusplus
-static_assert(sizeof(Glance) == 16 && sizeof(ViewPush) == 56 && offsetof(ViewPush, bgr) == 52);
+static_assert(sizeof(ReadbackPixel) == 16 && sizeof(ViewPush) == 56 && offsetof(ViewPush, bgr) == 52);
 }  // namespace lw
 #endif
 #endif

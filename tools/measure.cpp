@@ -177,7 +177,7 @@ void print_reflections(const Options& o, const lw::Scene& scene, const std::stri
 /// Bright reflections of lamps in one view or along a walk, traced without photons.
 void report_reflections(const Options& o, const lw::Scene& scene, const lw::RayCaster& caster) {
     const lw::PowerSetting powers = ambiances_of(o, scene).back();
-    const std::vector<lw::vec3> weights = lw::light_weights(scene, powers.factors);
+    const std::vector<lw::vec3> weights = lw::light_powers(scene, powers.factors);
     lw::ReflectionSettings settings;
     settings.limits = o.limits;
     settings.seed = o.survey.meter.seed;
@@ -263,7 +263,7 @@ void add_effort(CLI::App& app, Options& o) {
         ->check(lw::finite_number(0.2, 100));
     app.add_option("--photons", o.photons, "bake this many photons in memory instead of reading MAP")
         ->check(CLI::Range(uint64_t(1000), uint64_t(2'000'000'000)));
-    app.add_option("--most-photons", o.survey.most_photons, "largest bake of --error")
+    app.add_option("--most-photons", o.survey.max_photons, "largest bake of --error")
         ->capture_default_str()
         ->check(CLI::Range(uint64_t(1000), uint64_t(2'000'000'000)));
     app.add_option("--save-map", o.saved_map, "photon map to write what --photons or --error baked to (SCENE.pmap)");

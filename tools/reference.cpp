@@ -50,7 +50,7 @@ void render(Options& options) {
     lw::check_reference_fits(options.settings, lw::available_memory());
     const lw::RayCaster caster(scene);
     const std::vector<lw::vec3> weights =
-        lw::light_weights(scene, lw::chosen_factors(scene, options.ambiance, options.powers));
+        lw::light_powers(scene, lw::chosen_factors(scene, options.ambiance, options.powers));
     const lw::Reference reference =
         lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
     lw::check_is_light(reference.image);

@@ -61,7 +61,7 @@ void add_options(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--paths", o.paths,
                    "paths followed per pixel along narrow lobes and through glass, where there are any")
-        ->check(CLI::Range(1u, lw::most_paths))
+        ->check(CLI::Range(1u, lw::max_paths))
         ->capture_default_str();
     app.add_option("--followed-roughness", o.followed_roughness,
                    "rays follow what surfaces smoother than this reflect; photons show it of the others")

@@ -76,12 +76,12 @@ uint64_t checksum_of(const Header& header, const PhotonMap& map) {
     throw Error(path.string() + ": " + what + "; bake the map again");
 }
 
-constexpr float most_metres = 1e10f;     // beyond it, what the shaders compute from a place may not be a number
-constexpr float most_cells = 512;        // across a search radius: the exact gather visits rings of them
-constexpr float farthest_cell = 1e8f;    // from the corner of a grid: the shaders count them in ints
-constexpr uint most_columns = 1u << 23;  // and rows: the shaders count them in floats
+constexpr float max_metres = 1e10f;     // beyond it, what the shaders compute from a place may not be a number
+constexpr float max_cells = 512;        // across a search radius: the exact gather visits rings of them
+constexpr float farthest_cell = 1e8f;   // from the corner of a grid: the shaders count them in ints
+constexpr uint max_columns = 1u << 23;  // and rows: the shaders count them in floats
 
-bool is_place(float metres) { return std::abs(metres) < most_metres; }
+bool is_place(float metres) { return std::abs(metres) < max_metres; }
 
 /// 2^-100 to 2^100: light divided by it stays a number.
 bool is_scale(float scale) { return scale >= 0x1p-100f && scale <= 0x1p100f; }
@@ -91,8 +91,8 @@ bool is_usable(const SurfaceGrid& g, float scene_size) {
     const auto axis = [](vec3 v) { return std::abs(v.x) < 2 && std::abs(v.y) < 2 && std::abs(v.z) < 2; };
     return place(g.origin) && axis(g.u_axis) && axis(g.v_axis) && axis(g.normal) && place(g.quantum) &&
            is_place(g.h_origin) && is_place(g.cell_size) && g.cell_size > 0 && is_place(g.radius) && g.radius > 0 &&
-           g.radius <= most_cells * g.cell_size && length(g.origin) + scene_size <= farthest_cell * g.cell_size &&
-           g.columns <= most_columns && g.rows <= most_columns;
+           g.radius <= max_cells * g.cell_size && length(g.origin) + scene_size <= farthest_cell * g.cell_size &&
+           g.columns <= max_columns && g.rows <= max_columns;
 }
 
 /// Every grid but those of caustics has a lattice, and the map a value for each of their nodes.
@@ -102,7 +102,7 @@ void check_lattices(const std::filesystem::path& path, const PhotonMap& map) {
         const SurfaceLattice& l = map.grids[i].lattice;
         if (map.grids[i].columns == 0) continue;
         const auto is_step = [](float v) { return v > 0 && is_place(v); };
-        if (l.columns < 2 || l.rows < 2 || l.columns > most_columns || l.rows > most_columns || l.first_node != nodes ||
+        if (l.columns < 2 || l.rows < 2 || l.columns > max_columns || l.rows > max_columns || l.first_node != nodes ||
             !is_step(l.step.x) || !is_step(l.step.y) || !is_place(l.low.x) || !is_place(l.low.y) ||
             uint64_t(l.columns) * l.rows > map.coverage.size() - nodes)
             refuse(path, "the lattice of grid " + std::to_string(i) + " is not valid");
@@ -125,7 +125,7 @@ void check_cuts(const std::filesystem::path& path, const PhotonMap& map, size_t 
                 refuse(path, "cut " + std::to_string(i) + " leads to grid " + std::to_string(next));
             deep[i - first] = std::max(deep[i - first], deep[next - first] + 1);
         }
-        if (deep[i - first] > most_cuts_deep) refuse(path, "cut " + std::to_string(i) + " leads too deep");
+        if (deep[i - first] > max_cuts_deep) refuse(path, "cut " + std::to_string(i) + " leads too deep");
     }
 }
 

@@ -8,12 +8,12 @@
 namespace lw {
 
 /// Scenes of fewer triangles are drawn whole: the dispatches take longer than their triangles.
-constexpr size_t least_culled = 4096;
+constexpr size_t min_culled = 4096;
 
 class CullPass {
   public:
     /// `culled_from`: triangles of a scene from which on record() culls.
-    CullPass(const Device& device, const Resident& resident, size_t culled_from = least_culled);
+    CullPass(const Device& device, const Resident& resident, size_t culled_from = min_culled);
     /// Makes the list of a view. Afterwards descriptors() may be read by vertex shaders, and draw() be recorded.
     void record(vk::CommandBuffer commands, const Frame& frame) const;
     /// Draws what is listed of one kind of clusters, by a pipeline whose constant_first_listed is first_listed().

@@ -48,7 +48,7 @@ uint64_t photons_that_fit(const PhotonMap& map, uint64_t others, uint64_t budget
 }  // namespace
 
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map, bool queries_rays) {
-    const uint32_t needed = texel_binding_count + 3 * (most_chunks - 1) + 1;
+    const uint32_t needed = texel_binding_count + 3 * (max_chunks - 1) + 1;
     const uint32_t has = device.limits().maxPerStageDescriptorSampledImages;
     if (has < needed)
         throw Error(device.name() + ": binds " + std::to_string(has) + " textures, " + std::to_string(needed) +

@@ -18,7 +18,7 @@ using Stage = vk::PipelineStageFlagBits2;
 
 /// Without shadow rays only mirrors are followed. Never more than 1: Resident::may_follow() relies on it.
 float followed_roughness(const GatherSettings& settings) {
-    return settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f) : std::sqrt(smallest_alpha);
+    return settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f) : std::sqrt(min_alpha);
 }
 
 /// A pipeline of the gather and what it does.
@@ -39,7 +39,7 @@ ShaderConstants constants_for(const Resident& resident, const GatherSettings& se
     constants[constant_followed_roughness] = floatBitsToUint(followed_roughness(settings));
     constants[constant_has_followed] =
         settings.mode != gather_mode_inspect &&
-        (resident.narrowest_lobe() < followed_roughness(settings) || constants[constant_looks_through]);
+        (resident.min_lobe() < followed_roughness(settings) || constants[constant_looks_through]);
     return constants;
 }
 
@@ -52,7 +52,7 @@ Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& s
     frame.shadow_rays = settings.shadow_rays;
     frame.inverse_irradiance_scale = resident.inverse_irradiance_scale(lamps);
     frame.triangle_limit = resident.triangle_count();
-    frame.following = pack_following({0, 0, 0, std::clamp(settings.paths, 1u, most_paths)});
+    frame.following = pack_following({0, 0, 0, std::clamp(settings.paths, 1u, max_paths)});
     return frame;
 }
 
@@ -79,9 +79,9 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
         *wanted[i].pipeline = make_compute_pipeline(device, *layout_, code, own);
     });
     if (!follows) return;
-    const bool follows_lobes = followed_roughness(settings) > std::sqrt(smallest_alpha);  // not mirrors and glass alone
-    lobes_ = follows_lobes ? most_lobes : 1;
-    has_branch_[branch_reflected] = resident.narrowest_lobe() < followed_roughness(settings);
+    const bool follows_lobes = followed_roughness(settings) > std::sqrt(min_alpha);  // not mirrors and glass alone
+    lobes_ = follows_lobes ? max_lobes : 1;
+    has_branch_[branch_reflected] = resident.min_lobe() < followed_roughness(settings);
     has_branch_[branch_through] = constants[constant_looks_through];
 }
 

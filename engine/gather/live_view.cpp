@@ -37,8 +37,8 @@ void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, cons
     stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
     GatherSettings gather = settings;
     Frame sample = frame;
-    if (settings.shadow_rays > 0 && resident_->narrowest_lobe() < settings.followed_roughness) {
-        if (frame.sample_index == 0) gather.followed_roughness = std::sqrt(smallest_alpha);
+    if (settings.shadow_rays > 0 && resident_->min_lobe() < settings.followed_roughness) {
+        if (frame.sample_index == 0) gather.followed_roughness = std::sqrt(min_alpha);
         if (frame.sample_index == 1) sample.sample_index = 0, sample.sample_weight *= 2;  // in the place of the first
     }
     pass_for(gather).record(commands, with_gather(sample, *resident_, gather, lamps), side == Side::a ? a_ : b_, lamps,

@@ -29,12 +29,12 @@ class LiveView {
     /// for too many neighbours of the exact mode.
     void record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
                       uint lamps = 0, Rows rows = {});
-    /// Records the screen picture, and the glance of frame slot 0 or 1. Afterwards screen() may be copied.
+    /// Records the screen picture, and the readback of frame slot 0 or 1. Afterwards screen() may be copied.
     void record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot);
     /// sRGB codes of the last view, 4 bytes a pixel.
     const Buffer& screen() const { return a_.screen(); }
     /// What record_view() wrote into a slot; its commands must have finished.
-    std::vector<Glance> glance(uint slot) const { return view_.glance(slot); }
+    std::vector<ReadbackPixel> readback(uint slot) const { return view_.readback(slot); }
     /// The channels of Rendering::image of picture A, seen by `camera`, divided by the `samples` in it, one more in its
     /// first `fresh_rows`; waits for the device.
     Image read_values(const Camera& camera, vk::Extent2D picture_size, uint samples, uint fresh_rows = 0) const;

@@ -12,7 +12,7 @@ namespace lw {
 namespace {
 
 uint descriptor_count(uint binding) {
-    return binding == binding_places || binding == binding_fluxes || binding == binding_directions ? most_chunks : 1u;
+    return binding == binding_places || binding == binding_fluxes || binding == binding_directions ? max_chunks : 1u;
 }
 
 std::vector<Binding> scene_bindings(bool queries_rays) {
@@ -20,7 +20,7 @@ std::vector<Binding> scene_bindings(bool queries_rays) {
     const auto all = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | compute;
     std::vector<Binding> bindings;
     for (uint i = 0; i < scene_binding_count; ++i) {
-        const bool of_surfaces = i <= binding_texels || i == binding_looks || i == binding_textures;
+        const bool of_surfaces = i <= binding_texels || i == binding_materials || i == binding_textures;
         const auto type =
             i < texel_binding_count ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
         bindings.push_back({i, type, descriptor_count(i), of_surfaces ? vk::ShaderStageFlags(all) : compute});
@@ -45,7 +45,7 @@ bool any_texture(const Scene& scene, TextureSlot Material::*slot) {
 }
 
 /// The least roughness of a surface with a specular lobe; 1 without any.
-float narrowest_roughness(const Scene& scene) {
+float min_roughness(const Scene& scene) {
     float least = 1;
     for (const Material& m : scene.materials)
         if ((m.metallic > 0 || m.specular > 0) && !(m.flags & material_unlit))
@@ -60,7 +60,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     : device_(&device),
       scene_(&scene),
       map_(&map),
-      most_texels_(settings.texels ? settings.texels : device.limits().maxTexelBufferElements),
+      max_texels_(settings.texels ? settings.texels : device.limits().maxTexelBufferElements),
       triangle_count_(uint(scene.triangles.size())),
       max_radius_(map.settings.radius),
       inverse_flux_scale_(1.0f / map.flux_scale),
@@ -96,7 +96,7 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     constants_[constant_has_transmission] = std::any_of(scene.materials.begin(), scene.materials.end(),
                                                         [](const Material& m) { return m.transmission > 0; });
     const bool can_follow = !bvh.nodes.empty();
-    narrowest_lobe_ = can_follow ? narrowest_roughness(scene) : 1.0f;
+    min_lobe_ = can_follow ? min_roughness(scene) : 1.0f;
     constants_[constant_looks_through] =
         can_follow && (constants_[constant_has_transmission] || any_material(scene, material_alpha_blend));
     constants_[constant_has_caustics] = map.caustic_grids > 0;
@@ -112,7 +112,7 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     constants_[constant_has_metallic_roughness_textures] = any_texture(scene, &Material::metallic_roughness_texture);
     constants_[constant_has_emissive_textures] = any_texture(scene, &Material::emissive_texture);
     constants_[constant_has_transmission_textures] = any_texture(scene, &Material::transmission_texture);
-    constants_[constant_chunk_shift] = std::min(27u, uint(std::bit_width(most_texels_)) - 1u);
+    constants_[constant_chunk_shift] = std::min(27u, uint(std::bit_width(max_texels_)) - 1u);
     constants_[constant_chunks] = chunk_count(map.places.size(), constants_[constant_chunk_shift]);
     constants_[constant_heap_size] = 1;
 }
@@ -128,7 +128,7 @@ std::vector<uvec4> as_texels(const std::vector<T>& records) {
 void Resident::upload_scene(const Scene& scene) {
     upload_corners(scene);
     upload_texels<uint>(binding_texels, vk::Format::eR8G8B8A8Unorm, scene.texels, "texels");
-    upload_texels<uvec4>(binding_looks, vk::Format::eR32G32B32A32Uint, as_texels<look_texels>(scene.materials),
+    upload_texels<uvec4>(binding_materials, vk::Format::eR32G32B32A32Uint, as_texels<material_texels>(scene.materials),
                          "materials");
     upload_texels<uvec4>(binding_textures, vk::Format::eR32G32B32A32Uint, as_texels<texture_texels>(scene.textures),
                          "textures");
@@ -255,9 +255,9 @@ template <class T>
 void Resident::upload_chunks(uint binding, vk::Format format, std::span<const T> values, const std::string& what) {
     const uint shift = constants_[constant_chunk_shift], count = chunk_count(values.size(), shift);
     const size_t chunk = size_t(1) << shift;
-    if (count > most_chunks)
+    if (count > max_chunks)
         throw Error(device_->name() + ": " + std::to_string(values.size()) + " " + what + " do not fit, at most " +
-                    std::to_string(most_chunks * chunk) + "; bake fewer photons");
+                    std::to_string(max_chunks * chunk) + "; bake fewer photons");
     for (uint i = 0; i < count; ++i) {
         const size_t first = std::min(values.size(), i * chunk);
         buffers_.push_back(upload(*device_, values.subspan(first, std::min(chunk, values.size() - first)), what));
@@ -265,7 +265,7 @@ void Resident::upload_chunks(uint binding, vk::Format format, std::span<const T>
         for (const DescriptorSet& set : descriptors_) set.set_texels(binding, *views_.back(), i);
     }
     for (const DescriptorSet& set : descriptors_)
-        for (uint i = count; i < most_chunks; ++i) set.set_texels(binding, *views_.back(), i);  // never read
+        for (uint i = count; i < max_chunks; ++i) set.set_texels(binding, *views_.back(), i);  // never read
 }
 
 void Resident::set_light_factors(std::span<const float> factors, uint setting) {

@@ -43,9 +43,9 @@ class Resident {
     /// Specialization constants of the scene; those of the gather are left to the pass.
     const ShaderConstants& constants() const { return constants_; }
     /// The least roughness of a surface whose lobe could be followed by rays; 1: there is none.
-    float narrowest_lobe() const { return narrowest_lobe_; }
+    float min_lobe() const { return min_lobe_; }
     /// True when view paths may go on from what the eye sees.
-    bool may_follow() const { return narrowest_lobe_ < 1 || constants_[constant_looks_through]; }
+    bool may_follow() const { return min_lobe_ < 1 || constants_[constant_looks_through]; }
     /// True when rays are traced by the device's ray queries.
     bool queries_rays() const { return queries_rays_; }
     uint triangle_count() const { return triangle_count_; }
@@ -83,14 +83,14 @@ class Resident {
     const Device* device_;
     const Scene* scene_;
     const PhotonMap* map_;
-    uint64_t most_texels_;
+    uint64_t max_texels_;
     ShaderConstants constants_{};
     uint triangle_count_;
     float max_radius_;
     float inverse_flux_scale_;
     float ray_epsilon_;
     float scene_size_;
-    float narrowest_lobe_ = 1;
+    float min_lobe_ = 1;
     bool queries_rays_;
     uint64_t list_of_rays_ = 0;  // bytes of nodes and triangles in buffers_
     std::array<DescriptorSet, 2> descriptors_;

@@ -6,35 +6,36 @@
 namespace lw {
 namespace {
 
-constexpr size_t glance_bytes = size_t(glance_columns) * glance_rows * sizeof(Glance);
+constexpr size_t readback_bytes = size_t(readback_columns) * readback_rows * sizeof(ReadbackPixel);
 
 std::vector<Binding> view_bindings() {
     return {Binding{binding_view_light, vk::DescriptorType::eUniformTexelBuffer},
             Binding{binding_view_other, vk::DescriptorType::eUniformTexelBuffer},
             Binding{binding_view_visibility, vk::DescriptorType::eSampledImage}, Binding{binding_view_screen},
-            Binding{binding_view_glance}};
+            Binding{binding_view_readback}};
 }
 
 }  // namespace
 
 ViewPass::ViewPass(const Device& device, const Target& visibility, const Picture& a, const Picture& b)
     : device_(&device),
-      glance_(upload<Glance>(device, std::vector<Glance>(glance_bytes / sizeof(Glance)), "glance")),
-      read_back_{Buffer(device, glance_bytes, "glance", Buffer::Place::host),
-                 Buffer(device, glance_bytes, "glance", Buffer::Place::host)},
+      readback_(upload<ReadbackPixel>(device, std::vector<ReadbackPixel>(readback_bytes / sizeof(ReadbackPixel)),
+                                      "readback")),
+      read_back_{Buffer(device, readback_bytes, "readback", Buffer::Place::host),
+                 Buffer(device, readback_bytes, "readback", Buffer::Place::host)},
       descriptors_(device, view_bindings()) {
-    for (const Buffer& buffer : read_back_) std::fill_n(static_cast<char*>(buffer.mapped()), glance_bytes, char(0));
+    for (const Buffer& buffer : read_back_) std::fill_n(static_cast<char*>(buffer.mapped()), readback_bytes, char(0));
     descriptors_.set_texels(binding_view_light, a.light());
     descriptors_.set_texels(binding_view_other, b.light());
     descriptors_.set_target(binding_view_visibility, visibility);
     descriptors_.set_buffer(binding_view_screen, a.screen());
-    descriptors_.set_buffer(binding_view_glance, glance_);
+    descriptors_.set_buffer(binding_view_readback, readback_);
     const vk::DescriptorSetLayout sets[] = {descriptors_.layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(ViewPush));
 }
 
-vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled, bool is_glance) {
-    vk::UniquePipeline& pipeline = pipelines_[{kind, is_scaled, is_glance}];
+vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled, bool is_readback) {
+    vk::UniquePipeline& pipeline = pipelines_[{kind, is_scaled, is_readback}];
     if (!pipeline) {
         std::array<uint, view_constant_count> constants{};
         constants[constant_view] = kind.view;
@@ -42,7 +43,7 @@ vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled, bool i
         constants[constant_has_lines] = kind.has_lines;
         constants[constant_has_split] = kind.has_split && !is_inspection(kind.view) && !is_signed_view(kind.view);
         constants[constant_is_scaled] = is_scaled;
-        constants[constant_is_glance] = is_glance;
+        constants[constant_is_readback] = is_readback;
         pipeline = make_compute_pipeline(*device_, *layout_, view_comp, constants);
     }
     return *pipeline;
@@ -52,18 +53,18 @@ void ViewPass::record(vk::CommandBuffer commands, const ViewKind& kind, const Vi
     const bool is_scaled = push.screen != push.picture;
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, descriptors_.handle(), {});
     commands.pushConstants<ViewPush>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
-    for (const bool is_glance : {false, true}) {
-        const uvec2 invocations = is_glance ? uvec2(glance_columns, glance_rows) : push.screen;
-        commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_for(kind, is_scaled, is_glance));
+    for (const bool is_readback : {false, true}) {
+        const uvec2 invocations = is_readback ? uvec2(readback_columns, readback_rows) : push.screen;
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_for(kind, is_scaled, is_readback));
         commands.dispatch((invocations.x + 7) / 8, (invocations.y + 7) / 8, 1);
     }
     stage_barrier(commands, vk::PipelineStageFlagBits2::eComputeShader, vk::PipelineStageFlagBits2::eTransfer);
-    commands.copyBuffer(glance_.handle(), read_back_[slot].handle(), vk::BufferCopy(0, 0, glance_bytes));
+    commands.copyBuffer(readback_.handle(), read_back_[slot].handle(), vk::BufferCopy(0, 0, readback_bytes));
 }
 
-std::vector<Glance> ViewPass::glance(uint slot) const {
-    const auto* first = static_cast<const Glance*>(read_back_[slot].mapped());
-    return {first, first + glance_bytes / sizeof(Glance)};
+std::vector<ReadbackPixel> ViewPass::readback(uint slot) const {
+    const auto* first = static_cast<const ReadbackPixel*>(read_back_[slot].mapped());
+    return {first, first + readback_bytes / sizeof(ReadbackPixel)};
 }
 
 }  // namespace lw

@@ -1,4 +1,4 @@
-// Pictures to what is looked at (shaders/view.comp): exposed, in false colours, A beside B; and the glance, a few of
+// Pictures to what is looked at (shaders/view.comp): exposed, in false colours, A beside B; and the readback, a few of
 // their values, back on the CPU a frame late.
 #pragma once
 #include <array>
@@ -25,18 +25,18 @@ class ViewPass {
     /// Reads a and b and what their pixels see, writes the screen of a. All must outlive it.
     ViewPass(const Device& device, const Target& visibility, const Picture& a, const Picture& b);
     void record(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot);
-    /// glance_columns x glance_rows values of a slot whose commands have finished.
-    std::vector<Glance> glance(uint slot) const;
+    /// readback_columns x readback_rows values of a slot whose commands have finished.
+    std::vector<ReadbackPixel> readback(uint slot) const;
 
   private:
-    vk::Pipeline pipeline_for(const ViewKind& kind, bool is_scaled, bool is_glance);
+    vk::Pipeline pipeline_for(const ViewKind& kind, bool is_scaled, bool is_readback);
 
     const Device* device_;
-    Buffer glance_;
+    Buffer readback_;
     std::array<Buffer, slots> read_back_;
     DescriptorSet descriptors_;
     vk::UniquePipelineLayout layout_;
-    std::map<std::tuple<ViewKind, bool, bool>, vk::UniquePipeline> pipelines_;  // is_scaled, is_glance
+    std::map<std::tuple<ViewKind, bool, bool>, vk::UniquePipeline> pipelines_;  // is_scaled, is_readback
 };
 
 }  // namespace lw

@@ -18,8 +18,7 @@ static_assert(sizeof(VisibleSample) == 16);
 class VisibilityPass {
   public:
     /// `culled_from`: triangles of a scene from which on those without a pixel are left out.
-    VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size,
-                   size_t culled_from = least_culled);
+    VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size, size_t culled_from = min_culled);
     /// Draws frame.width x frame.height pixels from the top left corner, at most the pass's size. Afterwards texture()
     /// is readable by compute shaders.
     void record(vk::CommandBuffer commands, const Frame& frame) const;

@@ -10,8 +10,8 @@
 namespace lw {
 namespace {
 
-constexpr double most_references_per_photon = 2.5;  // what small patches are tightened to
-constexpr double most_indices = 4.29e9;             // 32 bits
+constexpr double max_references_per_photon = 2.5;  // what small patches are tightened to
+constexpr double max_indices = 4.29e9;             // 32 bits
 
 /// What a bake counts; areas and distances in metres.
 struct Counts {
@@ -38,13 +38,13 @@ double bytes_of(const Counts& c) {
 
 bool can_be_counted(const Counts& c) {
     const double words = std::ceil(c.lamps / lamps_per_word);
-    return c.photons * most_references_per_photon < most_indices &&
-           c.samples * most_references_per_photon < most_indices && c.nodes * std::max(words, 1.0) < most_indices;
+    return c.photons * max_references_per_photon < max_indices && c.samples * max_references_per_photon < max_indices &&
+           c.nodes * std::max(words, 1.0) < max_indices;
 }
 
 /// The most photons that `fits` allows, in steps of one significant digit; 0 when none.
 template <class Fits>
-uint64_t most_photons(uint64_t wanted, const Fits& fits) {
+uint64_t max_photons(uint64_t wanted, const Fits& fits) {
     for (uint64_t digit = 1'000'000'000; digit > 0; digit /= 10)
         for (uint64_t n = 9; n > 0; --n)
             if (n * digit < wanted && fits(n * digit)) return n * digit;
@@ -66,7 +66,7 @@ void check_bake_fits(const Scene& scene, const BakeSettings& settings, uint64_t 
     };
     if (fits(settings.photons)) return;
     const bool countable = can_be_counted(counts_of(scene, settings));
-    const uint64_t most = most_photons(settings.photons, fits);
+    const uint64_t most = max_photons(settings.photons, fits);
     throw Error(scene.path.filename().string() + ": " + std::to_string(settings.photons) + " photons " +
                 (countable ? "take about " + bytes_text(predict_bake_bytes(scene, settings)) + " of memory, " +
                                  bytes_text(budget) + " may be used (--memory)"

@@ -23,7 +23,7 @@ namespace {
 
 constexpr float patch_size_in_radii = 6;  // size of a patch in search radii (study: 4 to 8)
 constexpr float nodes_apart = 0.5f;       // search radii between the nodes of a lattice
-constexpr double most_references = 2.3;   // per photon, what small patches are tightened to; 2.5 is promised
+constexpr double max_references = 2.3;    // per photon, what small patches are tightened to; 2.5 is promised
 
 /// The grid in the frame of its patch; origin and sizes follow from its photons.
 SurfaceGrid frame_of(const PatchShape& shape, float radius) {
@@ -98,8 +98,8 @@ float automatic_radius(const Scene& scene, uint64_t photons) {
 
 /// Refuses a radius so small that the lattices, which follow it, would take hours and all the memory.
 void check_radius(const Scene& scene, float radius) {
-    constexpr double most_discs = 4e6;  // of this radius, on all surfaces: 400 million samples of their coverage
-    const double least = std::sqrt(area_of(scene) / (double(lw_pi) * most_discs));
+    constexpr double max_discs = 4e6;  // of this radius, on all surfaces: 400 million samples of their coverage
+    const double least = std::sqrt(area_of(scene) / (double(lw_pi) * max_discs));
     if (double(radius) >= least) return;
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", least);
@@ -130,7 +130,7 @@ struct Partition {
             radii = patch_radii(shapes, settings.radius, floor);
             if (sample_references(
                     {scene, photons.records, patches, shapes, radii, settings.neighbour_angle_deg, neighbours, caster},
-                    20000) < most_references)
+                    20000) < max_references)
                 break;
         }
     }
@@ -269,11 +269,11 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
         const size_t others_end = map.grids.size();
         LitPatches caustics = append_grids(scene, caster, partition, caustic, map);
         for (uint& grid : caustics.of_side) ++grid;  // none: 0
-        map.caustic_sides = SparseWords(caustics.of_side);
+        map.caustic_sides = SparseArray(caustics.of_side);
         map.caustic_grids = uint(map.grids.size() - others_end);
         if (map.has_visible_lamps()) map.smooth_caustics = add_smooth_caustics(scene, nodes, map, irradiance);
     }
-    map.irradiance = SparseWords(irradiance);
+    map.irradiance = SparseArray(irradiance);
     return map;
 }
 

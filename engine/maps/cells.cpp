@@ -12,8 +12,8 @@
 namespace lw {
 namespace {
 
-constexpr float even_distance = 12;       // steps of the lattice: light from nearer lamps bends too much between nodes
-constexpr float brightest_direct = 4096;  // of a record; RGB9E5 goes to 65408
+constexpr float even_distance = 12;  // steps of the lattice: light from nearer lamps bends too much between nodes
+constexpr float max_direct = 4096;   // of a record; RGB9E5 goes to 65408
 
 /// lux at a point facing `normal` from a lamp of intensity 1, if nothing stands between; falloff as
 /// KHR_lights_punctual.
@@ -67,7 +67,7 @@ CellLight::CellLight(const Scene& scene, const PhotonMap& map)
         if (planes.is_matte_plane(m)) add_direct_of_punctuals(map.grids[m], planes.height(m));
     });
     for (const std::vector<float>& lamp : direct_)
-        for (float e : lamp) brightest_direct_ = std::max(brightest_direct_, e);
+        for (float e : lamp) max_direct_ = std::max(max_direct_, e);
 }
 
 uint& CellLight::lamp_word(size_t cell, uint lamp) { return words_[cell * stride_ + marks_ + cell_lamp_word(lamp)]; }
@@ -147,7 +147,7 @@ float CellLight::sum(std::span<const vec3> weights, std::vector<uvec4>& light) c
     const size_t nodes = map_.coverage.size();
     float total = 0;
     for (const vec3& w : weights) total += std::max({w.x, w.y, w.z});
-    const float room = std::min(1.0f, brightest_direct / (brightest_direct_ * map_.irradiance_scale));
+    const float room = std::min(1.0f, max_direct / (max_direct_ * map_.irradiance_scale));
     const float scale = (total > 0 ? 1 / total : 1.0f) * room, record_scale = scale * map_.irradiance_scale;
     std::vector<vec3> at_nodes(nodes);
     parallel_for(

@@ -37,7 +37,7 @@ class CellLight {
     std::vector<uvec4> masks_;
     std::vector<uint> punctual_;              // lamps whose light cells may hold
     std::vector<std::vector<float>> direct_;  // of each of them: lux at the nodes for intensity 1, unshadowed
-    float brightest_direct_ = 1e-20f;
+    float max_direct_ = 1e-20f;
 };
 
 }  // namespace lw

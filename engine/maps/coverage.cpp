@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/wide_vectors.h"
-#include "maps/weighing.h"
+#include "maps/kernel_weight.h"
 #include "scene/surface.h"
 #include "trace/sampling.h"
 
@@ -78,7 +78,7 @@ class MapSamples {
         for (uint i = 0; i < count; ++i) {
             const float du = u[i] - local.x, dv = v[i] - local.y, dh = h[i] - local.z;
             squared[i] = du * du + dv * dv + dh * dh;
-            areas[i] = area[i] * share_of_surface(dh, squared[i], max_radius);
+            areas[i] = area[i] * same_surface_weight(dh, squared[i], max_radius);
         }
         for (uint level = 0; level < coverage_levels; ++level) {
             std::array<float, lanes> parts{};

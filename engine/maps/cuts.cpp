@@ -11,9 +11,9 @@
 namespace lw {
 namespace {
 
-constexpr float least_piece = 0.1f;  // of the radius: a wall along the border of a patch cuts nothing off
-constexpr size_t most_cuts = 255;
-constexpr int deepest_cut = most_cuts_deep;
+constexpr float min_piece = 0.1f;  // of the radius: a wall along the border of a patch cuts nothing off
+constexpr size_t max_cuts = 255;
+constexpr int max_cut = max_cuts_deep;
 
 using Outline = std::vector<vec2>;  // convex, counter-clockwise
 
@@ -75,7 +75,7 @@ float length_inside(const Outline& outline, const WallLine& line, float radius) 
         const float s = dot(p + (q - p) * (hp / (hp - hq)) - line.point, line.along);
         first = std::min(first, s), last = std::max(last, s);
     }
-    if (std::min(-low, high) < (line.is_chord ? width_of_chords(radius) : least_piece * radius)) return 0;
+    if (std::min(-low, high) < (line.is_chord ? width_of_chords(radius) : min_piece * radius)) return 0;
     float inside = 0;
     for (vec2 s : line.stretches) inside += std::max(0.0f, std::min(s.y, last) - std::max(s.x, first));
     return inside;
@@ -90,7 +90,7 @@ class Cutter {
     void cut(uint patch, const Outline& outline, const std::vector<WallLine>& lines) {
         whole_ = shapes_[patch];
         lines_ = &lines;
-        left_ = most_cuts;
+        left_ = max_cuts;
         free_ = patch;
         const uint root = divide(outline, 0);
         if (root & is_cut) roots_[patch] = root;
@@ -115,7 +115,7 @@ class Cutter {
             if (line.is_chord && best) break;  // chords are the last, in the order in which they cut
             if (const float inside = length_inside(outline, line, radius_); inside > most) best = &line, most = inside;
         }
-        if (!best || left_ == 0 || depth == deepest_cut) return add_piece(outline, depth > 0);
+        if (!best || left_ == 0 || depth == max_cut) return add_piece(outline, depth > 0);
         --left_;
         const auto index = uint(patches_.cuts.size());
         const vec3 up = whole_.v_axis * best->along.x - whole_.u_axis * best->along.y;

@@ -19,9 +19,8 @@ struct GatherSettings {
     // Per emissive mesh; 0: none where the map has a lattice, shadows as sharp as that, of lobes mirrors alone
     // followed.
     uint shadow_rays = 4;
-    uint paths = 1;  // per pixel along lobes that are followed
-    float followed_roughness =
-        widest_followed_roughness;  // lobes of surfaces smoother than this, at most 1, are followed
+    uint paths = 1;                                     // per pixel along lobes that are followed
+    float followed_roughness = max_followed_roughness;  // lobes of surfaces smoother than this, at most 1, are followed
 };
 
 /// Photon estimate at surface points; read-only view, scene and map must outlive it.
@@ -29,13 +28,13 @@ class PhotonEstimator : public SurfaceReader {
   public:
     static constexpr uint heap_size = 1024;  // most neighbours of the exact mode
 
-    /// `light_weights`: RGB power of each light in its own unit (intensity x dimmer).
-    PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_weights,
+    /// `light_powers`: RGB power of each light in its own unit (intensity x dimmer).
+    PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_powers,
                     GatherSettings settings, const Bvh& bvh = no_shadows())
         : SurfaceReader(scene),
           triangle_maps(map.triangle_maps.data()),
           map_(map),
-          weights_(light_weights),
+          weights_(light_powers),
           gather_mode(settings.mode),
           neighbours(settings.neighbours),
           max_radius(map.settings.radius),
@@ -60,19 +59,19 @@ class PhotonEstimator : public SurfaceReader {
           has_followed(!bvh.nodes.empty()),
           looks_through(!bvh.nodes.empty()),
           followed_roughness(settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f)
-                                                      : std::sqrt(smallest_alpha)),
+                                                      : std::sqrt(min_alpha)),
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
         if (map.irradiance.empty()) return;
         const CellLight cells(scene, map);
         cell_words_ = cells.words();
         shadow_masks_ = cells.masks();
-        if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(light_weights, cell_light_);
+        if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(light_powers, cell_light_);
     }
 
     PhotonPlace photon_place(uint i) const { return map_.places[i]; }
     uint photon_flux(uint i) const { return map_.fluxes[i]; }
     uint photon_direction(uint i) const { return map_.directions[i]; }
-    vec3 light_weight(uint light) const { return weights_[light]; }
+    vec3 light_power(uint light) const { return weights_[light]; }
     vec3 lamp_factor(uint light) const {
         const vec3 full = lights[light].intensity;
         vec3 factor(1);

@@ -8,8 +8,8 @@ namespace lw {
 namespace {
 
 constexpr uint block_side = 8;  // nodes across a block that is looked at as a whole
-constexpr uint smallest_block = 2;
-constexpr size_t most_triangles = 48;   // around a block; more are sampled faster
+constexpr uint min_block = 2;
+constexpr size_t max_triangles = 48;    // around a block; more are sampled faster
 constexpr float flatness = 2e-3f;       // radii: heights of what lies in the plane
 constexpr float burying_reach = 1.3f;   // radii: how far is_buried() looks sideways from the rim of a kernel
 constexpr float parallel_walls = 0.9f;  // cosine between walls that may leave a slit
@@ -81,7 +81,7 @@ class Ground {
         const float reach = (1 + burying_reach) * radius_;
         const vec3 middle(0.5f * (low + high), height);
         const vec3 centre = grid_.origin + middle.x * grid_.u_axis + middle.y * grid_.v_axis + height * grid_.normal;
-        if (!caster_.triangles_around(centre, length(0.5f * (high - low) + reach), most_triangles, found_))
+        if (!caster_.triangles_around(centre, length(0.5f * (high - low) + reach), max_triangles, found_))
             return std::nullopt;
         std::vector<Polygon> flats;
         std::vector<Wall> walls;
@@ -237,7 +237,7 @@ class FlatCoverage {
         const bool level = highest - lowest <= flatness * radius_;
         if (const auto flats = level ? ground_.look(low, high, 0.5f * (lowest + highest)) : std::nullopt) {
             cover(block, *flats, low, high);
-        } else if (side > smallest_block && level) {
+        } else if (side > min_block && level) {
             for (uint quarter = 0; quarter < 4; ++quarter)
                 cover(x0 + quarter % 2 * side / 2, y0 + quarter / 2 * side / 2, side / 2);
         } else {

@@ -17,7 +17,7 @@ namespace lw {
 namespace {
 
 constexpr uint rays_to_mesh = 16;
-constexpr float brightest_record = 4096;
+constexpr float max_record = 4096;
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
@@ -91,7 +91,7 @@ class NodeLight : public PhotonEstimator {
         const float radius = bandwidth_from_counts(grid, local);
         photons.add(local, radius, sums);
         return 2.0f / (lw_pi * radius * radius) * inverse_flux_scale /
-               std::max(unpack_coverage(map_.coverage[node], radius / grid.radius), least_coverage);
+               std::max(unpack_coverage(map_.coverage[node], radius / grid.radius), min_coverage);
     }
 
     /// Adds the light that comes straight from the meshes.
@@ -178,7 +178,7 @@ std::vector<uint> find_irradiance(const Scene& scene, const RayCaster& caster, c
     });
     float top = 0;
     for (const vec3& e : light) top = std::max(top, largest(e));
-    scale = top > 0 ? std::exp2(std::floor(std::log2(brightest_record / top))) : 1.0f;
+    scale = top > 0 ? std::exp2(std::floor(std::log2(max_record / top))) : 1.0f;
     std::vector<uint> packed(light.size());
     parallel_for(
         packed.size(), [&](size_t i) { packed[i] = pack_rgb9e5(light[i] * scale); }, 4096);

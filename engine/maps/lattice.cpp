@@ -12,7 +12,7 @@
 namespace lw {
 namespace {
 
-constexpr float most_nodes_across = 16384;
+constexpr float max_nodes_across = 16384;
 
 /// The triangle sides of each map: those of map m are sides[starts[m]] .. sides[starts[m + 1] - 1].
 struct SidesOfMaps {
@@ -29,7 +29,7 @@ struct SidesOfMaps {
 
 /// Nodes along an edge of `size` m.
 uint nodes_along(float size, float spacing) {
-    return uint(clamp(std::ceil(size / spacing), 1.0f, most_nodes_across)) + 1;
+    return uint(clamp(std::ceil(size / spacing), 1.0f, max_nodes_across)) + 1;
 }
 
 SurfaceLattice fit_lattice(const PatchShape& shape, const SurfaceGrid& grid, float spacing) {

@@ -9,7 +9,7 @@
 namespace lw {
 namespace {
 
-constexpr float most_cells_across = 4096;
+constexpr float max_cells_across = 4096;
 constexpr uint block_side = 4;  // cells across a block that is searched at once
 
 /// Another patch as the cells of one see it, in its own frame: the centre of cell (x, y) lies at start + x u_step +
@@ -137,7 +137,7 @@ Neighbours::Neighbours(const std::vector<PatchShape>& shapes, const std::vector<
 
 vec3 Neighbours::PatchCells::divide(const PatchShape& shape, float cell_size) {
     const vec3 size = shape.high - shape.low;
-    const auto count = [=](float edge) { return uint(clamp(std::ceil(edge / cell_size), 1.0f, most_cells_across)); };
+    const auto count = [=](float edge) { return uint(clamp(std::ceil(edge / cell_size), 1.0f, max_cells_across)); };
     columns = count(size.x), rows = count(size.y);
     list.resize(2 * columns * rows);
     const vec3 step = size / vec3(float(columns), float(rows), 1);

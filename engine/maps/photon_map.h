@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "maps/sparse_words.h"
+#include "maps/sparse_array.h"
 #include "shaders/photon_map.h"
 
 namespace lw {
@@ -27,7 +27,7 @@ struct PhotonMap {
     float flux_scale = 1;              // record flux = flux * flux_scale, keeps RGB9E5 in range
     std::vector<uint64_t> emitted;     // photons emitted per light
     std::vector<uint> triangle_maps;   // 2 per triangle: map of the front side, of the back side, or no_map
-    SparseWords caustic_sides;         // when there are caustics, 2 per triangle: their map + 1, or 0
+    SparseArray caustic_sides;         // when there are caustics, 2 per triangle: their map + 1, or 0
     std::vector<SurfaceGrid> grids;    // per map, then the cuts; those of caustics come last and have no lattice
     uint caustic_grids = 0;            // how many those are; their photons (path_caustic) are in no other map
     std::vector<uint> cell_starts;     // cells of all maps + 1
@@ -38,7 +38,7 @@ struct PhotonMap {
     std::vector<uint> coverage;  // per node of the lattices of all maps, see unpack_coverage()
     std::vector<uint>
         visible_lamps;       // which lamps the nodes see, see visibility_words(); empty when photons hold all light
-    SparseWords irradiance;  // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
+    SparseArray irradiance;  // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
     float irradiance_scale = 1;
     std::vector<uint> smooth_caustics;     // a bit per node: its irradiance holds caustics; empty without caustics, and
                                            // when photons hold all light

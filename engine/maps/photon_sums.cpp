@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/wide_vectors.h"
-#include "maps/weighing.h"
+#include "maps/kernel_weight.h"
 
 namespace lw {
 namespace {
@@ -70,7 +70,7 @@ LW_WIDE_VECTORS void PhotonSums::weigh(size_t first, size_t count, vec3 local, f
     for (size_t i = 0; i < count; ++i) {
         const float du = u[i] - local.x, dv = v[i] - local.y, dh = h[i] - local.z;
         const float d2 = du * du + dv * dv + dh * dh;
-        weights[i] = positive(1 - d2 * inverse_radius2) * share_of_surface(dh, d2, max_radius);
+        weights[i] = positive(1 - d2 * inverse_radius2) * same_surface_weight(dh, d2, max_radius);
     }
 }
 

@@ -6,16 +6,16 @@
 namespace lw {
 namespace {
 
-constexpr float least_cos_of_plane = 0.9997f;  // 1.4 degrees
-constexpr float least_roughness_of_matte = 0.8f;
+constexpr float min_cos_of_plane = 0.9997f;  // 1.4 degrees
+constexpr float min_roughness_of_matte = 0.8f;
 
 /// True when direct light of small lamps looks the same whether it comes from the lamp or from all sides.
 bool is_matte(const Material& m) {
     const bool textured = m.metallic_roughness_texture.texture >= 0 || m.normal_texture.texture >= 0;
     const auto largest = [](vec3 v) { return std::max({v.x, v.y, v.z}); };
     const float r = (m.ior - 1) / (m.ior + 1), reflectance = r * r * largest(m.specular_color) * m.specular;
-    const float most_reflectance = std::min(0.08f, 0.4f * largest(m.base_color));  // at normal incidence
-    const bool is_dull = m.roughness >= least_roughness_of_matte && reflectance <= most_reflectance;
+    const float max_reflectance = std::min(0.08f, 0.4f * largest(m.base_color));  // at normal incidence
+    const bool is_dull = m.roughness >= min_roughness_of_matte && reflectance <= max_reflectance;
     return !textured && m.metallic < 0.001f && (is_dull || m.specular <= 0);
 }
 
@@ -32,7 +32,7 @@ PlaneMaps::PlaneMaps(const Scene& scene, const PhotonMap& map)
                 const uint vertex = scene.triangles[side / 2][c];
                 const float height = dot(scene.positions[vertex] - grid.origin, grid.normal);
                 heights_[m] = std::max(heights_[m], height), lowest[m] = std::min(lowest[m], height);
-                if (std::abs(dot(scene.normals[vertex], grid.normal)) < least_cos_of_plane) matte_[m] = 0;
+                if (std::abs(dot(scene.normals[vertex], grid.normal)) < min_cos_of_plane) matte_[m] = 0;
             }
         });
     }

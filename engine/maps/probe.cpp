@@ -14,7 +14,7 @@ constexpr uint photons_per_estimate = 300;
 constexpr float narrower[] = {0.7f, 0.35f};  // other bandwidths, as parts of the first
 constexpr uint batches = 8;                  // of rays to a mesh lamp, scrambled apart: their spread is the error
 constexpr uint rays_per_batch = 16;
-constexpr uint most_tile_paths = 16;
+constexpr uint max_tile_paths = 16;
 constexpr float normal_90 = 1.645f;       // 90 % of a normal distribution lies within
 constexpr float relative_floor = 0.005f;  // packing of the records: RGB9E5 and 16-bit places
 
@@ -60,7 +60,7 @@ class Meter : public PhotonEstimator {
     /// Towards the viewer; mean over the paths of a tile of pixels, as those along lobes meet different surfaces.
     float luminance_of(const Hit& hit, vec3 viewer) const {
         const Seen seen = see(hit.triangle, hit.barycentrics, viewer);
-        const uint paths = goes_on(seen, branch_reflected) || goes_on(seen, branch_through) ? most_tile_paths : 1;
+        const uint paths = goes_on(seen, branch_reflected) || goes_on(seen, branch_through) ? max_tile_paths : 1;
         float sum = 0;
         for (uint i = 0; i < paths; ++i)
             sum += luminance(shade(hit.triangle, hit.barycentrics, viewer, 1 + i, uvec2(i / 4, i % 4)).radiance);
@@ -74,7 +74,7 @@ class Meter : public PhotonEstimator {
         Sum sum;
         visit_photons(grid, local, radius, [&](uint i, PhotonPlace photon, float d2) {
             const uint lamp = light_of(photon);
-            const float lux = luminance(unpack_rgb9e5(photon_flux(i)) * light_weight(lamp)) * (share * (1 - d2 / r2));
+            const float lux = luminance(unpack_rgb9e5(photon_flux(i)) * light_power(lamp)) * (share * (1 - d2 / r2));
             sum.value += lux;
             sum.squares += lux * lux;
             if (!shares) return;
@@ -113,7 +113,7 @@ class Meter : public PhotonEstimator {
         const float cosine = in ? dot(in->to_light, m.normal) : 0.0f;
         if (cosine <= 0) return 0;
         const vec3 passed = caster_.transmittance(caster_.offset(m.position, m.normal), in->position);
-        return luminance(in->radiance * passed * light_weight(lamp)) * cosine / (in->pdf > 0 ? in->pdf : 1.0f);
+        return luminance(in->radiance * passed * light_power(lamp)) * cosine / (in->pdf > 0 ? in->pdf : 1.0f);
     }
 
     float add_direct(uint lamp, Measurement& m) const {

@@ -29,7 +29,7 @@ struct Measurement {
 /// What a view ray along unit `direction` meets, glass and holes looked through as the picture does.
 std::optional<Hit> seen_from(const Scene& scene, const RayCaster& caster, vec3 origin, vec3 direction);
 
-/// Measures where `hit` lies, on the side of `viewer`. `weights`: RGB power of each lamp (light_weights()).
+/// Measures where `hit` lies, on the side of `viewer`. `weights`: RGB power of each lamp (light_powers()).
 Measurement measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
                     const std::vector<vec3>& weights, const Hit& hit, vec3 viewer);
 

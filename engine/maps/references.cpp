@@ -14,14 +14,14 @@
 namespace lw {
 namespace {
 
-constexpr size_t most_tasks = 64;
-constexpr size_t smallest_task = 8192;
+constexpr size_t max_tasks = 64;
+constexpr size_t min_task = 8192;
 constexpr float same_plane = 0.999f;     // least cosine between normals
 constexpr float one_plane = 0.9999999f;  // the same of triangles that share a normal
 constexpr uint moved_out = ~0u;          // in place of a photon that its own patch does not keep
 
 /// A reference to a photon of another patch.
-struct Foreign {
+struct NeighbourReference {
     uint patch, photon;
 };
 
@@ -29,7 +29,7 @@ struct Foreign {
 struct Task {
     size_t begin, end;
     std::vector<uint> counts;
-    std::vector<Foreign> foreign{};
+    std::vector<NeighbourReference> foreign{};
 };
 
 float largest_of(const std::vector<float>& radii) {
@@ -84,7 +84,7 @@ class MapFinder {
           cos_angle_(std::cos(glm::radians(input.neighbour_angle_deg))) {}
 
     /// Appends every other patch than its `own` that refers to a photon. Returns whether its own does.
-    bool find(uint photon, uint own, std::vector<Foreign>& found) const {
+    bool find(uint photon, uint own, std::vector<NeighbourReference>& found) const {
         const Photon& p = in_.photons[photon];
         const std::span<const uint> near = in_.neighbours.near(own, p.position);
         if (near.empty()) return true;
@@ -179,9 +179,9 @@ class MapFinder {
     float largest_, cos_angle_;
 };
 
-/// All photons in at most `most_tasks` pieces, with a count for each patch.
+/// All photons in at most `max_tasks` pieces, with a count for each patch.
 std::vector<Task> split(const ReferenceInput& input) {
-    const size_t photons = input.photons.size(), size = std::max(smallest_task, photons / most_tasks + 1);
+    const size_t photons = input.photons.size(), size = std::max(min_task, photons / max_tasks + 1);
     std::vector<Task> tasks;
     for (size_t begin = 0; begin < photons; begin += size)
         tasks.push_back({begin, std::min(begin + size, photons), std::vector<uint>(input.patches.count, 0)});
@@ -231,7 +231,7 @@ std::vector<Task> find_foreign(const ReferenceInput& input, const MapFinder& fin
             if (i + ahead < task.end) prefetch(input.photons[sorted.photons[i + ahead]]);
             if (!finder.find(sorted.photons[i], uint(own), task.foreign)) sorted.photons[i] = moved_out;
         }
-        for (const Foreign& reference : task.foreign) ++task.counts[reference.patch];
+        for (const NeighbourReference& reference : task.foreign) ++task.counts[reference.patch];
         progress.step(task.end - task.begin);
     });
     return tasks;
@@ -254,7 +254,7 @@ double sample_references(const ReferenceInput& input, size_t samples) {
     const MapFinder finder(input);
     const std::vector<Photon>& photons = input.photons;
     const size_t step = std::max<size_t>(1, photons.size() / samples), count = photons.size() / step;
-    std::vector<Foreign> found;
+    std::vector<NeighbourReference> found;
     size_t kept = 0;
     for (size_t i = 0; i < count; ++i) kept += finder.find(uint(i * step), finder.own_patch(uint(i * step)), found);
     return count ? double(kept + found.size()) / double(count) : 0;
@@ -281,7 +281,7 @@ References find_references(const ReferenceInput& input) {
                      result.photons.begin() + int64_t(result.starts[p]), is_kept);
     });
     parallel_for(tasks.size(), [&](size_t t) {
-        for (const Foreign& reference : tasks[t].foreign)
+        for (const NeighbourReference& reference : tasks[t].foreign)
             result.photons[tasks[t].counts[reference.patch]++] = reference.photon;
         tasks[t] = {};
     });

@@ -30,13 +30,13 @@ struct ReferenceInput {
     const RayCaster& caster;
 };
 
-constexpr float widest_overhang = 1.1f;
+constexpr float max_overhang = 1.1f;
 
 /// The radius of each patch: `largest`, but so small that the photons around a small patch do not outnumber those on
 /// it: the overhang (P r + pi r^2) / A of its rectangle stays below `overhang`, unless the radius is below `floor`
 /// metres.
 std::vector<float> patch_radii(const std::vector<PatchShape>& shapes, float largest, float floor,
-                               float overhang = widest_overhang);
+                               float overhang = max_overhang);
 
 /// A photon belongs to a patch when it lies within the patch's radius of its triangle (of the box around it, when the
 /// patch has several, and within the largest radius of its bounds), when its normal is within the angle of the patch's,

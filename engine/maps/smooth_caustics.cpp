@@ -9,8 +9,8 @@
 namespace lw {
 namespace {
 
-constexpr float brightest_record = 32768;  // RGB9E5 goes to 65408
-constexpr float least_steps = 1.5f;  // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
+constexpr float max_record = 32768;  // RGB9E5 goes to 65408
+constexpr float min_steps = 1.5f;    // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
 
 /// The text of shaders/caustics.glsl at lattice nodes, lamp by lamp.
 class CausticNodes : public PhotonEstimator {
@@ -30,9 +30,9 @@ class CausticNodes : public PhotonEstimator {
         const vec3 local = position_in_grid(grid, s.position);
         const float radius = caustic_radius(grid, local);
         const std::vector<vec3> light = light_at_node(m, node, grid, local, radius);
-        if (radius < least_steps * std::max(lattice.step.x, lattice.step.y) && has_any(light)) return false;
+        if (radius < min_steps * std::max(lattice.step.x, lattice.step.y) && has_any(light)) return false;
         for (uint lamp = 0; lamp < lamps_; ++lamp)
-            if (largest(light[lamp] + unpack_rgb9e5(records[record(lamp, node)])) > brightest_record) return false;
+            if (largest(light[lamp] + unpack_rgb9e5(records[record(lamp, node)])) > max_record) return false;
         for (uint lamp = 0; lamp < lamps_; ++lamp)
             if (largest(light[lamp]) > 0)
                 records[record(lamp, node)] = pack_rgb9e5(unpack_rgb9e5(records[record(lamp, node)]) + light[lamp]);
@@ -52,7 +52,7 @@ class CausticNodes : public PhotonEstimator {
         const float r2 = radius * radius, wide = std::min(4 * radius / grid.radius, 1.0f);
         const float covered = unpack_coverage(map_.coverage[node], radius / map_.grids[m].radius);
         const float share = 2 / (lw_pi * r2) * inverse_flux_scale * map_.irradiance_scale /
-                            (1 + wide * (std::max(covered, least_coverage) - 1));
+                            (1 + wide * (std::max(covered, min_coverage) - 1));
         visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
             light[light_of(place)] += unpack_rgb9e5(photon_flux(i)) * (share * (1 - d2 / r2));
         });

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/wide_vectors.h"
-#include "maps/weighing.h"
+#include "maps/kernel_weight.h"
 
 namespace lw {
 namespace {

@@ -14,13 +14,13 @@
 namespace lw {
 namespace {
 
-constexpr float least_wall = 1;        // radius: shorter things (legs, boards of furniture) cut nothing
-constexpr float tolerance = 0.002f;    // of the radius: segments as close to a line lie on it
-constexpr float least_chord = 0.3f;    // radius
-constexpr float longest_chord = 8;     // radii
-constexpr float least_round_wall = 1;  // radius, along the wall
-constexpr float steep = 0.7f;          // largest cosine between the normals of a wall and of what it stands on
-constexpr size_t most_lines = 255, most_tried = 512;
+constexpr float min_wall = 1;        // radius: shorter things (legs, boards of furniture) cut nothing
+constexpr float tolerance = 0.002f;  // of the radius: segments as close to a line lie on it
+constexpr float min_chord = 0.3f;    // radius
+constexpr float max_chord = 8;       // radii
+constexpr float min_round_wall = 1;  // radius, along the wall
+constexpr float steep = 0.7f;        // largest cosine between the normals of a wall and of what it stands on
+constexpr size_t max_lines = 255, max_tried = 512;
 
 struct Segment {
     uint patch;
@@ -32,7 +32,7 @@ struct Segment {
 bool may_be_cut(const PatchShape& shape, float radius) {
     const vec3 size = shape.high - shape.low;
     return shape.cos_spread > 0.999f && size.z <= height_of_cuts(radius) &&
-           std::max(size.x, size.y) > least_wall * radius;
+           std::max(size.x, size.y) > min_wall * radius;
 }
 
 /// Where a triangle that crosses the plane a little above the patch meets the patch, clipped to it and its
@@ -134,7 +134,7 @@ WallLine chord_from(std::span<const Segment> segments, const std::vector<char>& 
     for (size_t i = 0; i < segments.size(); ++i) {
         std::array<vec2, 2> ends{segments[i].a - start, segments[i].b - start};
         if (length(ends[0]) > length(ends[1])) std::swap(ends[0], ends[1]);
-        if (!taken[i] && dot(ends[1], ahead) > 0 && length(ends[0]) < longest_chord * radius) walls.push_back(ends);
+        if (!taken[i] && dot(ends[1], ahead) > 0 && length(ends[0]) < max_chord * radius) walls.push_back(ends);
     }
     std::sort(walls.begin(), walls.end(), [](const auto& x, const auto& y) { return length(x[0]) < length(y[0]); });
     const float width = 2 * width_of_chords(radius);
@@ -178,7 +178,7 @@ void add_chords(std::span<const Segment> segments, std::vector<char>& taken, flo
                 std::vector<WallLine>& lines) {
     std::vector<WallLine> chords;
     vec2 end = segments[0].a;
-    for (size_t tried = 0; tried < most_tried && lines.size() + chords.size() < most_lines; ++tried) {
+    for (size_t tried = 0; tried < max_tried && lines.size() + chords.size() < max_lines; ++tried) {
         const Segment* seed = nullptr;
         float least = 1e30f;
         for (size_t i = 0; i < segments.size(); ++i)
@@ -197,7 +197,7 @@ void add_chords(std::span<const Segment> segments, std::vector<char>& taken, flo
                 at >= 0 && at <= chord.length;
         }
         end = from + chord.along * chord.length;
-        if (chord.length < least_chord * radius) continue;
+        if (chord.length < min_chord * radius) continue;
         chords.push_back(chord);
         chords.back().stretches.emplace_back(0.0f, chord.length);
     }
@@ -205,7 +205,7 @@ void add_chords(std::span<const Segment> segments, std::vector<char>& taken, flo
         float wall = 0;
         for (const WallLine& other : chords)  // itself too
             wall += goes_on(chord, other, radius) ? other.length : 0;
-        if (wall >= least_round_wall * radius) lines.push_back(chord);
+        if (wall >= min_round_wall * radius) lines.push_back(chord);
     }
 }
 
@@ -230,10 +230,10 @@ std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius
     std::vector<char> taken(segments.size(), 0), straight = taken;
     std::vector<size_t> members;
     size_t tried = 0;
-    for (size_t i = 0; i < segments.size() && tried < most_tried && lines.size() < most_lines; ++i) {
+    for (size_t i = 0; i < segments.size() && tried < max_tried && lines.size() < max_lines; ++i) {
         const vec2 along = segments[i].b - segments[i].a;
         const float size = length(along);
-        if (taken[i] || !(size > 0) || length_around(bins[i]) < least_wall * radius) continue;
+        if (taken[i] || !(size > 0) || length_around(bins[i]) < min_wall * radius) continue;
         ++tried;
         WallLine line{segments[i].a, along / size, {}};
         members.clear();
@@ -247,7 +247,7 @@ std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius
                         b = dot(segments[j].b - line.point, line.along);
             line.stretches.emplace_back(std::min(a, b), std::max(a, b));
         }
-        join_stretches(line, radius, least_wall * radius);
+        join_stretches(line, radius, min_wall * radius);
         if (!(line.length > 0)) continue;
         for (size_t j : members) straight[j] = 1;
         lines.push_back(std::move(line));

@@ -9,12 +9,12 @@
 namespace lw {
 namespace {
 
-constexpr int longest_path = 64;
-constexpr float least_used_coverage = 0.75f;
+constexpr int max_path = 64;
+constexpr float min_used_coverage = 0.75f;
 /// Noise of a narrow lobe is averaged over the rays, so it is widened less than in a picture: widening loses light at
 /// grazing angles.
-constexpr float narrowest_reflected_roughness = 0.2f;
-constexpr float narrowest_direct_roughness = 0.1f;  // a mirror-like coat shows lamps a little widened
+constexpr float min_reflected_roughness = 0.2f;
+constexpr float min_direct_roughness = 0.1f;  // a mirror-like coat shows lamps a little widened
 
 /// The power heuristic: part of a sample of density `own` where another way has density `other`.
 float share_of(float own, float other) { return own * own / (own * own + other * other); }
@@ -61,7 +61,7 @@ void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered,
                            Gathering& to) const {
     const float r2 = radius * radius, peak = 2 / (lw_pi * r2) * inverse_flux_scale / covered;
     Surface s = at.surface;
-    s.roughness = std::max(s.roughness, narrowest_reflected_roughness);
+    s.roughness = std::max(s.roughness, min_reflected_roughness);
     const vec3 diffuse = eval_brdf(s, at.n_shading, at.to_eye, at.n_shading, true);
     visit_photons(grid, position_in_grid(grid, s.position), radius, [&](uint i, PhotonPlace place, float d2) {
         const uint lamp = light_of(place);
@@ -103,7 +103,7 @@ bool Gatherer::is_resolved(const Seen& seen) const {
     constexpr float reach = 1.2f;  // over cos 30 degrees, so that a wall between two feelers is met
     if (seen.at.map == no_map) return true;
     const float radius = 0.5f * seen.at.grid.radius;
-    if (has_coverage && coverage_at(seen.at, radius) < least_used_coverage) return false;
+    if (has_coverage && coverage_at(seen.at, radius) < min_used_coverage) return false;
     const mat3 frame = frame_around(seen.n_geometric);
     const vec3 start = caster_.offset(seen.surface.position, seen.n_geometric);
     for (int i = 0; i < feelers; ++i)
@@ -127,7 +127,7 @@ void Gatherer::gather(vec3 origin, vec3 direction, Gathering& to) const {
     bool emission = false;
     vec3 medium(0);                    // absorption of what the ray goes through, 1/m
     float density = 0, travelled = 0;  // of the last ray's direction, 0 for a mirror; m since it started
-    for (int depth = 0; depth < longest_path; ++depth) {
+    for (int depth = 0; depth < max_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction);
         if (!hit) return;
         const Surface s = surface_at(hit->triangle, hit->barycentrics);
@@ -141,12 +141,12 @@ void Gatherer::gather(vec3 origin, vec3 direction, Gathering& to) const {
         }
         Seen at = seen_from(to_view, *hit, s);
         const bool specular = is_purely_specular(s);
-        const bool sharp = !specular && s.metallic > 0.5f && s.roughness < narrowest_gathered_roughness;
+        const bool sharp = !specular && s.metallic > 0.5f && s.roughness < min_gathered_roughness;
         const bool close = hit->distance < 0.5f * max_radius || !is_resolved(at);
         const bool walk_on = specular || sharp || close;
         if (!walk_on) {
             add_reflected(at, to);
-            at.surface.roughness = std::max(s.roughness, narrowest_direct_roughness);
+            at.surface.roughness = std::max(s.roughness, min_direct_roughness);
         }
         if (!specular && (walk_on || !map_.settings.direct_in_photons))
             add_lamps(at, sharp ? LampChoice::without_meshes : walk_on ? LampChoice::with_path : LampChoice::all, to);

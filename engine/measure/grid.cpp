@@ -5,12 +5,12 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "measure/words.h"
+#include "measure/option_parsing.h"
 
 namespace lw {
 namespace {
 
-constexpr double most_sensors = 1e6;
+constexpr double max_sensors = 1e6;
 
 std::vector<std::string> words_of(const std::string& text) {
     std::istringstream stream(text);
@@ -62,7 +62,7 @@ SensorSet make_grid(const GridRequest& request, const Scene& scene) {
     const double longer = std::max(width, height), shorter = std::min(width, height);
     const double spacing =
         request.spacing > 0 ? request.spacing : grid_spacing(longer >= 2 * shorter ? shorter : longer);
-    if (width / spacing * height / spacing > most_sensors)
+    if (width / spacing * height / spacing > max_sensors)
         throw Error("--grid \"" + request.name + "\": more than a million points; give a larger spacing");
     GridShape shape{};
     shape.columns = cells_of(width, spacing), shape.rows = cells_of(height, spacing);

@@ -10,7 +10,7 @@
 namespace lw {
 namespace {
 
-constexpr size_t most_numbers = 600;
+constexpr size_t max_numbers = 600;
 constexpr double drawing_width = 720;  // CSS pixels
 
 std::string base64(const std::vector<uint8_t>& bytes) {
@@ -121,7 +121,7 @@ std::string grid_drawing(const MeasuredSet& measured, const std::vector<Value>& 
     text += printed("<image x=0 y=0 width=%.4g height=%.4g preserveAspectRatio=none opacity=0.72 href=\"", wide, tall) +
             data_address(colored_grid(values, grid, low, high)) + "\"/>\n";
     text += printed("<rect class=field width=%.4g height=%.4g />\n", wide, tall);
-    if (values.size() <= most_numbers)
+    if (values.size() <= max_numbers)
         for (size_t i = 0; i < values.size(); ++i) {
             const double x = (double(i % grid.columns) + 0.5) * double(cell.x),
                          y = (double(i / grid.columns) + 0.5) * double(cell.y);

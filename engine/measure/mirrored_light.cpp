@@ -8,8 +8,8 @@
 namespace lw {
 namespace {
 
-constexpr int most_sheets = 8;
-constexpr int most_reflections = 4;
+constexpr int max_sheets = 8;
+constexpr int max_reflections = 4;
 
 double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
@@ -51,7 +51,7 @@ void MirrorTracer::add_lamps(const Surface& s, vec3 n, vec3 to_view, vec3 part, 
 void MirrorTracer::reflect(const Surface& first, uint object, vec3 to_view, vec3 part, Rng& rng,
                            MirroredLight& light) const {
     Surface s = first;
-    for (int reflections = 0; reflections < most_reflections; ++reflections) {
+    for (int reflections = 0; reflections < max_reflections; ++reflections) {
         float k = 0;
         const Surface lobe = specular_lobe(surfaces_, s, k);
         if (!(k > 0) || (s.flags & material_unlit)) return;
@@ -76,7 +76,7 @@ void MirrorTracer::reflect(const Surface& first, uint object, vec3 to_view, vec3
                     pdf > 0 ? power_heuristic(pdf, emitters_.arrive_pdf(s, distance, next->direction)) : 1;
                 if (luminance(seen) > 0) light[{uint(s.light), object}] += luminance(seen) * double(chosen);
             }
-            if (!surfaces_.passes_straight(s) || sheets == most_sheets) break;
+            if (!surfaces_.passes_straight(s) || sheets == max_sheets) break;
             part *= surfaces_.passed_by(hit->triangle, hit->barycentrics, next->direction);
             origin = caster_.offset(s.position, turned(s.geometric_normal, next->direction));
         }
@@ -86,7 +86,7 @@ void MirrorTracer::reflect(const Surface& first, uint object, vec3 to_view, vec3
 
 void MirrorTracer::add(vec3 origin, vec3 direction, double share, Rng& rng, MirroredLight& light) const {
     vec3 part = vec3(float(share));
-    for (int sheets = 0; sheets < most_sheets; ++sheets) {
+    for (int sheets = 0; sheets < max_sheets; ++sheets) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
         if (!hit) return;
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);

@@ -17,10 +17,10 @@ constexpr float on_surface_within = 2e-3f;    // m
 constexpr float border_within = 1e-2f;        // m
 constexpr float lamp_within = 1e-2f;          // m
 constexpr int directions_beside = 16;
-constexpr float least_alignment = 0.99f;  // cosine between a sensor and the surface it measures
-constexpr float facing = 0.5f;            // cosine from which a surface is on one side of another direction
-constexpr size_t most_around = 256;       // triangles within a millimetre
-constexpr int pushes = 8;                 // out of a corner: each wall moves the sensor a little towards the others
+constexpr float min_alignment = 0.99f;  // cosine between a sensor and the surface it measures
+constexpr float facing = 0.5f;          // cosine from which a surface is on one side of another direction
+constexpr size_t max_around = 256;      // triangles within a millimetre
+constexpr int pushes = 8;               // out of a corner: each wall moves the sensor a little towards the others
 
 /// A triangle close to a sensor; the normal tells the side on which the sensor is to stand.
 struct Facet {
@@ -39,7 +39,7 @@ struct Facet {
 /// sensor that is on no surface of its own direction. Of all others the front does, and of sheets the side it is on.
 std::vector<Facet> facets_around(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor) {
     std::vector<uint> found;
-    caster.triangles_around(sensor.position, height_over_surface, most_around, found);
+    caster.triangles_around(sensor.position, height_over_surface, max_around, found);
     std::sort(found.begin(), found.end());
     std::vector<Facet> facets;
     for (const uint t : found) {
@@ -48,7 +48,7 @@ std::vector<Facet> facets_around(const SurfaceReader& surfaces, const RayCaster&
         const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
         if (!(length(product) > 0)) continue;
         const vec3 n = product / length(product);
-        facets.push_back({p, n, std::abs(dot(n, sensor.normal)) >= least_alignment});
+        facets.push_back({p, n, std::abs(dot(n, sensor.normal)) >= min_alignment});
         const bool is_sheet = surfaces.material_of(t).flags & material_double_sided;
         if (is_sheet && facets.back().height(sensor.position) < -tolerance * height_over_surface)
             facets.back().normal = -n;
@@ -102,7 +102,7 @@ std::optional<Hit> surface_under(const SurfaceReader& surfaces, const RayCaster&
     const std::optional<Hit> hit = caster.nearest(sensor.position, -sensor.normal, on_surface_within);
     if (!hit) return std::nullopt;
     const vec3 n = surfaces.surface_at(hit->triangle, hit->barycentrics).geometric_normal;
-    return std::abs(dot(n, sensor.normal)) < least_alignment ? std::nullopt : hit;
+    return std::abs(dot(n, sensor.normal)) < min_alignment ? std::nullopt : hit;
 }
 
 bool is_inside(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor) {

@@ -14,8 +14,8 @@ constexpr double student_90 = 1.895;  // of Student's t with repetitions - 1 = 7
 static_assert(repetitions == 8);
 /// Even rays that all miss a small bright thing agree with each other. What they gain over random ones is not believed
 /// beyond this part of the random error.
-constexpr double least_of_scatter = 0.25;
-constexpr double fewest_photons = 100;
+constexpr double min_of_scatter = 0.25;
+constexpr double min_photons = 100;
 
 /// Why a number should not be signed, or "".
 std::string doubt_of(const Reading& reading, const Value& value) {
@@ -23,7 +23,7 @@ std::string doubt_of(const Reading& reading, const Value& value) {
     if (reading.blocked) return "inside or right under an object";
     if (reading.at_lamp) return "within 1 cm of a lamp without size";
     if (is_dark(reading)) return "no light found";
-    if (value.photons < fewest_photons && value.photon_error > 0.02 * value.lux) {
+    if (value.photons < min_photons && value.photon_error > 0.02 * value.lux) {
         std::snprintf(text, sizeof text, "too few photons (%.0f effective)", value.photons);
     } else if (value.relative() > 0.1) {
         std::snprintf(text, sizeof text, "interval wider than 10 %%: %s",
@@ -89,7 +89,7 @@ Value value_of(const Reading& reading, std::span<const vec3> factors, float main
         variance += error * error;
     }
     const double kernels = double(reading.kernel_bias) * by_photons;
-    const double rays = std::max(spread_of(reading, factors, value.lux), least_of_scatter * scatter);
+    const double rays = std::max(spread_of(reading, factors, value.lux), min_of_scatter * scatter);
     value.lux *= double(maintenance);
     value.ray_error = double(maintenance) * rays;
     value.photon_error = double(maintenance) * std::sqrt(variance + kernels * kernels + blur * blur);

@@ -13,7 +13,7 @@
 namespace lw {
 namespace {
 
-constexpr uint most_surroundings = 96;  // pixels path traced around a patch
+constexpr uint max_surroundings = 96;   // pixels path traced around a patch
 constexpr uint surrounding_paths = 32;  // per pixel
 
 double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
@@ -120,7 +120,7 @@ std::vector<char> taken_pixels(const Scene& scene, const RayCaster& caster, cons
 }
 
 double mean_luminance(const PathTracer& tracer, const View& view, const std::vector<uint>& pixels, uint64_t seed) {
-    const size_t step = std::max<size_t>(1, pixels.size() / most_surroundings);
+    const size_t step = std::max<size_t>(1, pixels.size() / max_surroundings);
     double sum = 0;
     size_t count = 0;
     for (size_t i = 0; i < pixels.size(); i += step)

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "measure/grid.h"
-#include "measure/words.h"
+#include "measure/option_parsing.h"
 #include "scene/surface.h"
 #include "trace/sampling.h"
 

@@ -9,8 +9,8 @@
 #include "maps/bake_memory.h"
 #include "maps/build.h"
 #include "maps/probe.h"
+#include "measure/option_parsing.h"
 #include "measure/placing.h"
-#include "measure/words.h"
 #include "photons/shoot.h"
 #include "scene/ambiance.h"
 #include "scene/camera.h"
@@ -21,7 +21,7 @@ namespace lw {
 namespace {
 
 constexpr double photon_share = 0.7;  // of the error asked for that photons may use; the rays have as much
-constexpr double least_lux = 1;
+constexpr double min_lux = 1;
 constexpr uint more_rays = 4;
 
 /// Where each sensor of a flat list belongs.
@@ -38,7 +38,7 @@ Errors errors_of(const Reading& reading, const Survey& survey) {
     Errors worst;
     for (const PowerSetting& ambiance : survey.ambiances) {
         const Value value = value_of(reading, ambiance.factors, survey.maintenance);
-        if (value.lux < least_lux || reading.blocked) continue;
+        if (value.lux < min_lux || reading.blocked) continue;
         worst.rays = std::max(worst.rays, 1.9 * value.ray_error / value.lux);
         worst.photons = std::max(worst.photons, 1.645 * value.photon_error / value.lux);
         worst.interval = std::max(worst.interval, value.relative());
@@ -68,7 +68,7 @@ void add_rays(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
               Survey& survey) {
     const double of_error = std::sqrt(1 - photon_share * photon_share) * settings.error;
     const double share = settings.error > 0 ? std::min(of_error, settings.ray_error) : settings.ray_error;
-    const uint most = settings.error > 0 ? 16 * settings.most_rays : settings.most_rays;
+    const uint most = settings.error > 0 ? 16 * settings.max_rays : settings.max_rays;
     for (uint rays = settings.meter.rays; rays < most;) {
         rays *= more_rays;
         std::vector<Place> noisy;
@@ -115,7 +115,7 @@ void reach_error(const Scene& scene, const RayCaster& caster, PhotonMap& map, co
                  const SurveySettings& settings, Survey& survey) {
     for (int tries = 0; tries < 3; ++tries) {
         const uint64_t needed = photons_needed(map, settings, survey);
-        const uint64_t photons = affordable(scene, map.settings, std::min(needed, settings.most_photons),
+        const uint64_t photons = affordable(scene, map.settings, std::min(needed, settings.max_photons),
                                             settings.memory > 0 ? settings.memory : available_memory());
         if (photons <= map.stored_photons + map.stored_photons / 50) break;
         map = bake_again(scene, caster, map.settings, photons);
@@ -195,7 +195,7 @@ void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey) {
     const Bvh bvh = build_bvh(scene);
     const auto maintenance = double(survey.maintenance);
     for (size_t a = 0; a < survey.ambiances.size(); ++a) {
-        const std::vector<vec3> weights = light_weights(scene, survey.ambiances[a].factors);
+        const std::vector<vec3> weights = light_powers(scene, survey.ambiances[a].factors);
         const std::vector<Measurement> read = measure(scene, caster, survey.map, bvh, weights, places);
         for (size_t i = 0; i < read.size(); ++i)
             survey.sets[sensors[i].set].pins[a][sensors[i].sensor] = {maintenance * double(read[i].lux),
@@ -204,7 +204,7 @@ void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey) {
 }
 
 void trace_survey(const Scene& scene, const RayCaster& caster, uint64_t paths, uint64_t seed, Survey& survey) {
-    const std::vector<vec3> weights = light_weights(scene, survey.ambiances[0].factors);
+    const std::vector<vec3> weights = light_powers(scene, survey.ambiances[0].factors);
     for (MeasuredSet& measured : survey.sets)
         measured.traced = trace_sensors(scene, caster, weights, measured.set.sensors, {paths, seed});
 }
@@ -219,7 +219,7 @@ Agreement agreement_of(const MeasuredSet& measured, const PowerSetting& ambiance
     Agreement result;
     for (size_t i = 0; i < measured.traced.size(); ++i) {
         const double truth = double(maintenance) * measured.traced[i].lux;
-        if (!values[i].doubt.empty() || truth < least_lux) continue;
+        if (!values[i].doubt.empty() || truth < min_lux) continue;
         ++result.compared;
         result.inside += agrees(values[i], measured.traced[i], maintenance);
         result.difference += values[i].lux / truth - 1;

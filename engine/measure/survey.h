@@ -28,10 +28,10 @@ struct MeasuredSet {
 
 struct SurveySettings {
     MeterSettings meter;
-    double error = 0;           // largest half width of the 90 % interval over the value; 0: whatever the photons give
-    double ray_error = 0.02;    // part of that which rays may leave; a sensor gets more of them until it is reached
-    uint most_rays = 1u << 14;  // per sensor; 16 times as many with `error`
-    uint64_t most_photons = 64'000'000;
+    double error = 0;          // largest half width of the 90 % interval over the value; 0: whatever the photons give
+    double ray_error = 0.02;   // part of that which rays may leave; a sensor gets more of them until it is reached
+    uint max_rays = 1u << 14;  // per sensor; 16 times as many with `error`
+    uint64_t max_photons = 64'000'000;
     uint64_t memory = 0;    // bytes a bake for `error` may take; 0: what the machine has available
     float maintenance = 1;  // part of the lamps' light that is left (maintenance factor)
 };

@@ -20,7 +20,7 @@ struct TraceSettings {
     uint64_t seed = 1;
 };
 
-/// `weights`: RGB power of each lamp (light_weights()). Sensors on surfaces stand 1 mm off, as when they are read.
+/// `weights`: RGB power of each lamp (light_powers()). Sensors on surfaces stand 1 mm off, as when they are read.
 std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& weights,
                                   std::span<const Sensor> sensors, const TraceSettings& settings);
 

@@ -53,7 +53,7 @@ Rgb8Image plan_view(const Scene& scene, const RayCaster& caster, const SensorSet
 
 std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
                                      const Camera& camera, const PowerSetting& ambiance, int width, int height) {
-    const std::vector<vec3> weights = light_weights(scene, ambiance.factors);
+    const std::vector<vec3> weights = light_powers(scene, ambiance.factors);
     const Bvh bvh = build_bvh(scene);
     const PhotonEstimator estimator(scene, map, weights, {}, bvh);
     std::vector<double> lux(size_t(width) * size_t(height), 0);

@@ -13,7 +13,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double degrees = 180 / pi;
 constexpr double largest_difference = 0.1;  // between the flux of a file and what it states
-constexpr double most_candela = 1e12;       // a thousand lighthouses of a thousand million candela
+constexpr double max_candela = 1e12;        // a thousand lighthouses of a thousand million candela
 
 /// A plane the file gives for one that follows by symmetry; C in [0, 360).
 double folded(const std::vector<double>& planes, double c) {
@@ -60,7 +60,7 @@ double interpolated(const Photometry& p, double horizontal, double vertical) {
 
 void check_flux(const Photometry& photometry, const std::string& name) {
     for (const double value : photometry.candela)
-        if (!(value <= most_candela)) throw Error(name + ": gives more than 1e12 cd");
+        if (!(value <= max_candela)) throw Error(name + ": gives more than 1e12 cd");
     const double flux = flux_of(photometry), stated = photometry.stated_output;
     if (!(flux > 0)) throw Error(name + ": gives no light");
     if (!(stated > 0) || std::abs(flux / stated - 1) <= largest_difference) return;

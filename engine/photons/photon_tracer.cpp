@@ -8,9 +8,9 @@
 namespace lw {
 namespace {
 
-constexpr int longest_path = 1000;  // ends paths between surfaces that absorb nothing; 0.99^1000 is 4e-5
+constexpr int max_path = 1000;  // ends paths between surfaces that absorb nothing; 0.99^1000 is 4e-5
 constexpr int depth_of_roulette = 64;
-constexpr size_t flights_at_once = 8;  // while one waits for a triangle, others move
+constexpr size_t states_at_once = 8;  // while one waits for a triangle, others move
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
@@ -26,7 +26,7 @@ uint path_after(uint path, const Scatter& next) {
 double balance_of(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 /// A photon on its way.
-struct PhotonTracer::Flight {
+struct PhotonTracer::PathState {
     vec3 origin, direction, flux;
     vec3 medium{0};  // absorption, 1/m
     uint light = 0, path = path_direct;
@@ -47,8 +47,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const RayCaster& caster, const Sh
       caster_(caster),
       surfaces_(scene),
       emitters_(scene),
-      aims_(scene.lights.size()),
-      facets_(facets_of(scene)),
+      guides_(scene.lights.size()),
+      packed_triangles_(pack_triangles(scene)),
       settings_(settings) {}
 
 std::array<float, 5> PhotonTracer::numbers(uint light, uint64_t index) const {
@@ -59,93 +59,93 @@ std::array<float, 5> PhotonTracer::numbers(uint light, uint64_t index) const {
 }
 
 void PhotonTracer::trace(Chunk& chunk, double emitted, size_t most) const {
-    std::array<Flight, flights_at_once> flights;
+    std::array<PathState, states_at_once> states;
     size_t count = 0;
     const auto step_all = [&](const auto& step) {  // the last takes the place of one that ends
         for (size_t i = 0; i < count;)
-            if (step(flights[i]))
+            if (step(states[i]))
                 ++i;
             else
-                flights[i] = flights[--count];
+                states[i] = states[--count];
     };
     uint64_t next = chunk.first;
     while (true) {
-        while (count < flights.size() && next < chunk.last && chunk.photons.size() < most)
-            flights[count++] = start(chunk, next++, float(1.0 / emitted));
+        while (count < states.size() && next < chunk.last && chunk.photons.size() < most)
+            states[count++] = start(chunk, next++, float(1.0 / emitted));
         if (count == 0) break;
-        step_all([&](Flight& flight) { return look(chunk, flight); });
-        step_all([&](Flight& flight) { return bounce(chunk, flight); });
+        step_all([&](PathState& state) { return look(chunk, state); });
+        step_all([&](PathState& state) { return bounce(chunk, state); });
     }
     chunk.last = next;
 }
 
 /// A photon that leaves its lamp.
-PhotonTracer::Flight PhotonTracer::start(Chunk& chunk, uint64_t index, float share) const {
+PhotonTracer::PathState PhotonTracer::start(Chunk& chunk, uint64_t index, float share) const {
     std::array<float, 5> u = numbers(chunk.light, index);
-    share *= aims_[chunk.light].warp(u);
+    share *= guides_[chunk.light].warp(u);
     const Emission photon = emitters_.emit(chunk.light, u);
-    Flight flight{caster_.offset(photon.origin, photon.normal), photon.direction, photon.flux * share};
-    flight.light = chunk.light;
-    flight.rng = Rng(settings_.seed, chunk.light + 1, index);
-    chunk.emitted_flux += balance_of(flight.flux);
-    return flight;
+    PathState state{caster_.offset(photon.origin, photon.normal), photon.direction, photon.flux * share};
+    state.light = chunk.light;
+    state.rng = Rng(settings_.seed, chunk.light + 1, index);
+    chunk.emitted_flux += balance_of(state.flux);
+    return state;
 }
 
 /// Finds what the photon meets; false when nothing. Blends that are passed are lit.
-bool PhotonTracer::look(Chunk& chunk, Flight& flight) const {
+bool PhotonTracer::look(Chunk& chunk, PathState& state) const {
     std::vector<Hit> passed;
-    const std::optional<Hit> hit = caster_.nearest(flight.origin, flight.direction, flight.rng, &passed);
+    const std::optional<Hit> hit = caster_.nearest(state.origin, state.direction, state.rng, &passed);
     for (const Hit& blend : passed) {
-        Flight there = flight;
-        there.flux = flight.flux * surfaces_.passed_by_medium(flight.medium, blend.distance);
-        keep(chunk, there, bounce_at(blend, flight.direction));
+        PathState there = state;
+        there.flux = state.flux * surfaces_.passed_by_medium(state.medium, blend.distance);
+        keep(chunk, there, bounce_at(blend, state.direction));
     }
     if (!hit) {
-        chunk.escaped += balance_of(flight.flux);
+        chunk.escaped += balance_of(state.flux);
         return false;
     }
-    flight.next = *hit;
-    __builtin_prefetch(&facets_[hit->triangle]);
+    state.next = *hit;
+    __builtin_prefetch(&packed_triangles_[hit->triangle]);
     return true;
 }
 
 /// Leaves a photon and sends the rest on; false when the path ends here.
-bool PhotonTracer::bounce(Chunk& chunk, Flight& flight) const {
-    const Bounce at = bounce_at(flight.next, flight.direction);
-    pass_medium(chunk, flight, at);
-    keep(chunk, flight, at);
-    if (!leave(chunk, flight, at)) return false;
-    if (++flight.depth < longest_path) return true;
-    chunk.absorbed += balance_of(flight.flux);
+bool PhotonTracer::bounce(Chunk& chunk, PathState& state) const {
+    const Bounce at = bounce_at(state.next, state.direction);
+    pass_medium(chunk, state, at);
+    keep(chunk, state, at);
+    if (!leave(chunk, state, at)) return false;
+    if (++state.depth < max_path) return true;
+    chunk.absorbed += balance_of(state.flux);
     return false;
 }
 
 /// The medium on the way takes its part.
-void PhotonTracer::pass_medium(Chunk& chunk, Flight& flight, const Bounce& at) const {
+void PhotonTracer::pass_medium(Chunk& chunk, PathState& state, const Bounce& at) const {
     const vec3 absorption =
-        at.matte ? flight.medium : absorption_before(surfaces_, at.surface, flight.direction, flight.medium);
+        at.matte ? state.medium : absorption_before(surfaces_, at.surface, state.direction, state.medium);
     if (absorption == vec3(0)) return;
-    const vec3 arriving = flight.flux * surfaces_.passed_by_medium(absorption, flight.next.distance);
-    chunk.absorbed += balance_of(flight.flux) - balance_of(arriving);
-    flight.flux = arriving;
+    const vec3 arriving = state.flux * surfaces_.passed_by_medium(absorption, state.next.distance);
+    chunk.absorbed += balance_of(state.flux) - balance_of(arriving);
+    state.flux = arriving;
 }
 
 /// Leaves a photon where surfaces show light.
-void PhotonTracer::keep(Chunk& chunk, const Flight& flight, const Bounce& at) const {
+void PhotonTracer::keep(Chunk& chunk, const PathState& state, const Bounce& at) const {
     if (!at.shows_light) return;
     ++chunk.shown;
-    if (flight.path == path_direct && !settings_.direct_in_photons) return;
-    chunk.photons.push_back({at.surface.position, flight.flux, -flight.direction, at.triangle,
-                             pack_origin(flight.light, flight.path, at.back)});
+    if (state.path == path_direct && !settings_.direct_in_photons) return;
+    chunk.photons.push_back({at.surface.position, state.flux, -state.direction, at.triangle,
+                             pack_origin(state.light, state.path, at.back)});
 }
 
 PhotonTracer::Bounce PhotonTracer::bounce_at(const Hit& hit, vec3 direction) const {
-    const Facet& facet = facets_[hit.triangle];
+    const PackedTriangle& packed = packed_triangles_[hit.triangle];
     Bounce at;
     at.triangle = hit.triangle;
-    at.matte = facet.is_matte, at.flat = facet.is_flat;
+    at.matte = packed.is_matte, at.flat = packed.is_flat;
     if (at.matte)
-        read_matte(hit, facet, at.surface);
+        read_matte(hit, packed, at.surface);
     else
         at.surface = surfaces_.surface_at(hit.triangle, hit.barycentrics);
     at.back = dot(at.surface.geometric_normal, direction) > 0;
@@ -154,12 +154,12 @@ PhotonTracer::Bounce PhotonTracer::bounce_at(const Hit& hit, vec3 direction) con
 }
 
 /// surface_at() for what a matte bounce needs.
-void PhotonTracer::read_matte(const Hit& hit, const Facet& facet, Surface& s) const {
+void PhotonTracer::read_matte(const Hit& hit, const PackedTriangle& packed, Surface& s) const {
     const float b1 = hit.barycentrics.x, b2 = hit.barycentrics.y, b0 = 1 - b1 - b2;
-    s.position = b0 * facet.corners[0] + b1 * facet.corners[1] + b2 * facet.corners[2];
-    s.normal = s.geometric_normal = facet.normal;
-    s.base_color = facet.base_color;
-    if (facet.is_flat) return;
+    s.position = b0 * packed.corners[0] + b1 * packed.corners[1] + b2 * packed.corners[2];
+    s.normal = s.geometric_normal = packed.normal;
+    s.base_color = packed.base_color;
+    if (packed.is_flat) return;
     const uvec3 c = scene_.triangles[hit.triangle];
     const vec3 n = b0 * scene_.normals[c.x] + b1 * scene_.normals[c.y] + b2 * scene_.normals[c.z];
     const float n_length = length(n);
@@ -168,50 +168,49 @@ void PhotonTracer::read_matte(const Hit& hit, const Facet& facet, Surface& s) co
 }
 
 /// Sends the photon on from a surface, by roulette; false when it ends there.
-bool PhotonTracer::leave(Chunk& chunk, Flight& flight, const Bounce& at) const {
-    if (at.matte) return leave_matte(chunk, flight, at);
-    const std::optional<Scatter> next =
-        sample_bsdf(surfaces_, at.surface, -flight.direction, Carries::flux, flight.rng);
+bool PhotonTracer::leave(Chunk& chunk, PathState& state, const Bounce& at) const {
+    if (at.matte) return leave_matte(chunk, state, at);
+    const std::optional<Scatter> next = sample_bsdf(surfaces_, at.surface, -state.direction, Carries::flux, state.rng);
     // Ends what is caught in clear glass.
-    const float longest_survival = flight.depth < depth_of_roulette || (next && !next->specular) ? 1.0f : 0.95f;
-    if (!survives(chunk, flight, next ? next->weight : vec3(0), longest_survival)) return false;
-    flight.path = path_after(flight.path, *next);
-    flight.direction = next->direction;
-    flight.medium = absorption_after(surfaces_, at.surface, flight.direction, flight.medium);
+    const float max_survival = state.depth < depth_of_roulette || (next && !next->specular) ? 1.0f : 0.95f;
+    if (!survives(chunk, state, next ? next->weight : vec3(0), max_survival)) return false;
+    state.path = path_after(state.path, *next);
+    state.direction = next->direction;
+    state.medium = absorption_after(surfaces_, at.surface, state.direction, state.medium);
     const vec3 ng = at.surface.geometric_normal;
-    flight.origin = caster_.offset(at.surface.position, dot(flight.direction, ng) > 0 ? ng : -ng);
+    state.origin = caster_.offset(at.surface.position, dot(state.direction, ng) > 0 ? ng : -ng);
     return true;
 }
 
 /// Roulette: the flux that goes on is `weight` times the arriving one on average. What ends is absorbed.
-bool PhotonTracer::survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival) {
-    const vec3 reflected = flight.flux * weight;
-    const float before = largest(flight.flux), after = largest(reflected);
-    const float survival = before > 0 ? std::min(longest_survival, after / before) : 0.0f;
-    const bool goes_on = flight.rng.next() < survival;
+bool PhotonTracer::survives(Chunk& chunk, PathState& state, vec3 weight, float max_survival) {
+    const vec3 reflected = state.flux * weight;
+    const float before = largest(state.flux), after = largest(reflected);
+    const float survival = before > 0 ? std::min(max_survival, after / before) : 0.0f;
+    const bool goes_on = state.rng.next() < survival;
     const vec3 kept = goes_on ? reflected * (1 / survival) : vec3(0);
-    chunk.absorbed += balance_of(flight.flux) - balance_of(kept);
-    flight.flux = kept;
+    chunk.absorbed += balance_of(state.flux) - balance_of(kept);
+    state.flux = kept;
     return goes_on;
 }
 
 /// leave() a Lambert reflector of one colour: what sample_bsdf() does there, without asking for other lobes.
-bool PhotonTracer::leave_matte(Chunk& chunk, Flight& flight, const Bounce& at) const {
+bool PhotonTracer::leave_matte(Chunk& chunk, PathState& state, const Bounce& at) const {
     const float side = at.back ? -1.0f : 1.0f;
     const vec3 ng = at.surface.geometric_normal * side, bent = at.surface.normal * side;
-    const bool seen = -dot(bent, flight.direction) > 1e-4f;
+    const bool seen = -dot(bent, state.direction) > 1e-4f;
     const vec3 n(seen ? bent.x : ng.x, seen ? bent.y : ng.y, seen ? bent.z : ng.z);
-    const float u = flight.rng.next(), v = flight.rng.next();
+    const float u = state.rng.next(), v = state.rng.next();
     const vec3 local = sample_cosine(u, v), direction = frame_around(n) * local;
     const float out = dot(ng, direction);
     // Flux at bent normals (Veach 1997, equation 5.18); none leaves through the surface.
-    const float shading = std::max(-dot(n, flight.direction), 1e-4f) * out;
-    const float geometric = -dot(ng, flight.direction) * local.z;
+    const float shading = std::max(-dot(n, state.direction), 1e-4f) * out;
+    const float geometric = -dot(ng, state.direction) * local.z;
     const float adjoint = !(out > 0) ? 0.0f : geometric > 1e-6f && !at.flat ? shading / geometric : 1.0f;
-    if (!survives(chunk, flight, at.surface.base_color * adjoint, 1)) return false;
-    flight.path = path_indirect;
-    flight.direction = direction;
-    flight.origin = caster_.offset(at.surface.position, ng);
+    if (!survives(chunk, state, at.surface.base_color * adjoint, 1)) return false;
+    state.path = path_indirect;
+    state.direction = direction;
+    state.origin = caster_.offset(at.surface.position, ng);
     return true;
 }
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "photons/aim.h"
-#include "photons/facets.h"
+#include "photons/emission_guide.h"
+#include "photons/packed_triangles.h"
 #include "photons/photon.h"
 #include "photons/shoot.h"
 #include "trace/bsdf.h"
@@ -25,14 +25,14 @@ struct Chunk {
 /// Luminance of a flux, for balances.
 double balance_of(vec3 flux);
 
-/// Scene and caster must outlive it. Thread-safe but for aim().
+/// Scene and caster must outlive it. Thread-safe but for guide().
 class PhotonTracer {
   public:
     PhotonTracer(const Scene& scene, const RayCaster& caster, const ShootSettings& settings);
 
-    void aim(uint light, Aim aim) { aims_[light] = std::move(aim); }
+    void guide(uint light, EmissionGuide guide) { guides_[light] = std::move(guide); }
 
-    /// The five emission numbers of a path, before aiming: Owen-scrambled Sobol.
+    /// The five emission numbers of a path, before they are guided: Owen-scrambled Sobol.
     std::array<float, 5> numbers(uint light, uint64_t index) const;
 
     /// Traces the paths of a chunk, a few side by side; each carries 1 / emitted of the lamp's flux. With `most`
@@ -40,25 +40,25 @@ class PhotonTracer {
     void trace(Chunk& chunk, double emitted, size_t most = std::numeric_limits<size_t>::max()) const;
 
   private:
-    struct Flight;
+    struct PathState;
     struct Bounce;
-    Flight start(Chunk& chunk, uint64_t index, float share) const;
-    bool look(Chunk& chunk, Flight& flight) const;
-    bool bounce(Chunk& chunk, Flight& flight) const;
-    void pass_medium(Chunk& chunk, Flight& flight, const Bounce& at) const;
-    void keep(Chunk& chunk, const Flight& flight, const Bounce& at) const;
+    PathState start(Chunk& chunk, uint64_t index, float share) const;
+    bool look(Chunk& chunk, PathState& state) const;
+    bool bounce(Chunk& chunk, PathState& state) const;
+    void pass_medium(Chunk& chunk, PathState& state, const Bounce& at) const;
+    void keep(Chunk& chunk, const PathState& state, const Bounce& at) const;
     Bounce bounce_at(const Hit& hit, vec3 direction) const;
-    bool leave(Chunk& chunk, Flight& flight, const Bounce& at) const;
-    bool leave_matte(Chunk& chunk, Flight& flight, const Bounce& at) const;
-    static bool survives(Chunk& chunk, Flight& flight, vec3 weight, float longest_survival);
-    void read_matte(const Hit& hit, const Facet& facet, Surface& s) const;
+    bool leave(Chunk& chunk, PathState& state, const Bounce& at) const;
+    bool leave_matte(Chunk& chunk, PathState& state, const Bounce& at) const;
+    static bool survives(Chunk& chunk, PathState& state, vec3 weight, float max_survival);
+    void read_matte(const Hit& hit, const PackedTriangle& packed, Surface& s) const;
 
     const Scene& scene_;
     const RayCaster& caster_;
     SurfaceReader surfaces_;
     Emitters emitters_;
-    std::vector<Aim> aims_;
-    std::vector<Facet> facets_;
+    std::vector<EmissionGuide> guides_;
+    std::vector<PackedTriangle> packed_triangles_;
     ShootSettings settings_;
 };
 

@@ -15,9 +15,9 @@ namespace {
 
 constexpr uint64_t chunk_size = 1024;  // paths per task
 constexpr size_t chunks_at_once = 128;
-constexpr uint64_t pilot_paths = 8192;          // per lamp, to learn what it stores
-constexpr uint64_t aim_paths = 131072;          // per sun, to learn where its light enters
-constexpr size_t most_pilot_photons = 100'000;  // of a task: enough to learn from, in a room that absorbs little
+constexpr uint64_t pilot_paths = 8192;         // per lamp, to learn what it stores
+constexpr uint64_t guide_paths = 131072;       // per sun, to learn where its light enters
+constexpr size_t max_pilot_photons = 100'000;  // of a task: enough to learn from, in a room that absorbs little
 std::vector<Chunk> split_paths(const std::vector<uint64_t>& emitted, const std::vector<uint64_t>& first) {
     std::vector<Chunk> chunks;
     for (uint light = 0; light < emitted.size(); ++light)
@@ -27,25 +27,26 @@ std::vector<Chunk> split_paths(const std::vector<uint64_t>& emitted, const std::
 }
 
 /// Learns from where on its disc each sun lights the scene by more than one bounce.
-void aim_suns(PhotonTracer& tracer, const Scene& scene) {
+void guide_suns(PhotonTracer& tracer, const Scene& scene) {
     for (uint light = 0; light < scene.lights.size(); ++light) {
         if (scene.lights[light].type != light_directional) continue;
-        std::vector<double> useful_per_path(aim_paths, 0);
+        std::vector<double> useful_per_path(guide_paths, 0);
         parallel_for(
-            aim_paths,
+            guide_paths,
             [&](size_t i) {
                 Chunk path{light, i, i + 1, {}, 0, 0, 0};
-                tracer.trace(path, double(aim_paths));
+                tracer.trace(path, double(guide_paths));
                 for (const Photon& p : path.photons)
                     useful_per_path[i] += p.path() == path_direct ? 0 : balance_of(p.flux);
             },
             1024);
-        std::vector<double> useful(Aim::side * Aim::side, 0);
-        for (size_t i = 0; i < aim_paths; ++i) {
+        std::vector<double> useful(EmissionGuide::side * EmissionGuide::side, 0);
+        for (size_t i = 0; i < guide_paths; ++i) {
             const std::array<float, 5> u = tracer.numbers(light, i);
-            useful[size_t(u[0] * Aim::side) * Aim::side + size_t(u[1] * Aim::side)] += useful_per_path[i];
+            useful[size_t(u[0] * EmissionGuide::side) * EmissionGuide::side + size_t(u[1] * EmissionGuide::side)] +=
+                useful_per_path[i];
         }
-        tracer.aim(light, Aim(useful));
+        tracer.guide(light, EmissionGuide(useful));
     }
 }
 
@@ -53,7 +54,7 @@ void aim_suns(PhotonTracer& tracer, const Scene& scene) {
 std::vector<uint64_t> plan_emission(const PhotonTracer& tracer, const Scene& scene, uint64_t wanted) {
     const size_t count = scene.lights.size();
     std::vector<Chunk> pilots = split_paths(std::vector<uint64_t>(count, pilot_paths), std::vector<uint64_t>(count, 0));
-    parallel_for(pilots.size(), [&](size_t i) { tracer.trace(pilots[i], double(pilot_paths), most_pilot_photons); });
+    parallel_for(pilots.size(), [&](size_t i) { tracer.trace(pilots[i], double(pilot_paths), max_pilot_photons); });
     std::vector<double> yield(count, 0), useful(count, 0), traced(count, 0);
     for (const Chunk& pilot : pilots) traced[pilot.light] += double(pilot.last - pilot.first);
     uint64_t shown = 0;
@@ -95,8 +96,8 @@ void add_to(LightBalance& balance, const Chunk& chunk) {
 /// Appends the photons of some tasks in the order of their triangles: what is done with them later meets those of a
 /// surface one after the other in memory. Many triangles share a bucket.
 void append_by_triangle(std::span<const Chunk> chunks, size_t triangles, std::vector<Photon>& records) {
-    constexpr size_t most_buckets = 65536;
-    const size_t per_bucket = triangles / most_buckets + 1;
+    constexpr size_t max_buckets = 65536;
+    const size_t per_bucket = triangles / max_buckets + 1;
     std::vector<size_t> next(triangles / per_bucket + 2, 0);
     for (const Chunk& chunk : chunks)
         for (const Photon& photon : chunk.photons) ++next[photon.triangle / per_bucket + 1];
@@ -109,20 +110,20 @@ void append_by_triangle(std::span<const Chunk> chunks, size_t triangles, std::ve
 
 /// Tasks on their way: while some are traced, the photons of those before are appended. Their buffers are used again
 /// and again, as fresh memory costs time.
-class Waves {
+class PhotonCollector {
   public:
-    Waves(const PhotonTracer& tracer, size_t triangles, Photons& photons, Progress& progress)
+    PhotonCollector(const PhotonTracer& tracer, size_t triangles, Photons& photons, Progress& progress)
         : tracer_(tracer), triangles_(triangles), photons_(photons), progress_(progress) {}
 
-    void trace(std::span<Chunk> wave) {
-        parallel_for(wave.size() + 1, [&](size_t i) {
+    void trace(std::span<Chunk> batch) {
+        parallel_for(batch.size() + 1, [&](size_t i) {
             if (i == 0) return append();
-            Chunk& chunk = wave[i - 1];
+            Chunk& chunk = batch[i - 1];
             chunk.photons.swap(buffers_[i - 1]);
             tracer_.trace(chunk, double(photons_.lights[chunk.light].emitted));
             progress_.step(chunk.photons.size());
         });
-        traced_ = wave;
+        traced_ = batch;
         buffers_.swap(appended_);
     }
 
@@ -151,7 +152,7 @@ class Waves {
 Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSettings& settings) {
     if (scene.lights.size() > light_mask) throw Error(scene.path.filename().string() + ": more than 16383 lamps");
     PhotonTracer tracer(scene, caster, settings);
-    aim_suns(tracer, scene);
+    guide_suns(tracer, scene);
     const std::vector<uint64_t> emitted = plan_emission(tracer, scene, settings.photons);
     std::vector<Chunk> chunks = split_paths(emitted, std::vector<uint64_t>(emitted.size(), 0));
     Photons photons;
@@ -159,10 +160,10 @@ Photons shoot_photons(const Scene& scene, const RayCaster& caster, const ShootSe
     for (uint light = 0; light < emitted.size(); ++light) photons.lights[light].emitted = emitted[light];
     photons.records.reserve(size_t(1.02 * double(settings.photons)));  // about what comes; more is no error
     Progress progress("photons", settings.photons);
-    Waves waves(tracer, scene.triangles.size(), photons, progress);
+    PhotonCollector collector(tracer, scene.triangles.size(), photons, progress);
     for (size_t first = 0; first < chunks.size(); first += chunks_at_once)
-        waves.trace(std::span(chunks).subspan(first, std::min(chunks_at_once, chunks.size() - first)));
-    waves.append();
+        collector.trace(std::span(chunks).subspan(first, std::min(chunks_at_once, chunks.size() - first)));
+    collector.append();
     return photons;
 }
 

@@ -14,14 +14,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr float most_factor = 1e6f;
+constexpr float max_factor = 1e6f;
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) { throw Error(where + ": " + what); }
 
 float factor_from(const Json& value, const std::string& where) {
     if (!value.is_number()) fail(where, "must be a number");
     const float factor = value.get<float>();
-    if (!(factor >= 0 && factor <= most_factor)) fail(where, "must be from 0 to 1000000");
+    if (!(factor >= 0 && factor <= max_factor)) fail(where, "must be from 0 to 1000000");
     return factor;
 }
 

@@ -15,7 +15,7 @@ std::string joined(const std::vector<std::string>& names) {
     return text;
 }
 
-constexpr float most_factor = 1e12f;  // light of the brightest lamps times this stays a float
+constexpr float max_factor = 1e12f;  // light of the brightest lamps times this stays a float
 
 /// A number, or -1.
 float parse_number(const std::string& text) {
@@ -32,7 +32,7 @@ float parse_number(const std::string& text) {
 vec3 parse_factor(const std::string& text, vec3 intensity) {
     const size_t at = text.find('@');
     const float factor = parse_number(text.substr(0, at));
-    if (!(factor >= 0 && factor <= most_factor)) throw Error("the factor must be a number from 0 to 1e12");
+    if (!(factor >= 0 && factor <= max_factor)) throw Error("the factor must be a number from 0 to 1e12");
     if (at == std::string::npos) return vec3(factor);
     std::string kelvin = text.substr(at + 1);
     if (kelvin.ends_with('K')) kelvin.pop_back();

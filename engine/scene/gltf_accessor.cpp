@@ -6,8 +6,8 @@
 namespace lw {
 namespace {
 
-constexpr uint64_t most_rows = uint64_t(1) << 31;
-constexpr uint64_t most_zero_rows = uint64_t(1) << 22;  // an accessor without a view costs the file nothing
+constexpr uint64_t max_rows = uint64_t(1) << 31;
+constexpr uint64_t max_zero_rows = uint64_t(1) << 22;  // an accessor without a view costs the file nothing
 
 /// Rows of raw components somewhere in a buffer.
 struct RawRows {
@@ -79,7 +79,7 @@ const tinygltf::Accessor& checked_accessor(const GltfFile& file, int index, cons
     const tinygltf::Accessor& accessor = file.model.accessors[size_t(index)];
     if (!component_bytes(accessor.componentType) || tinygltf::GetNumComponentsInType(uint32_t(accessor.type)) <= 0)
         file.fail(where + ": accessor " + std::to_string(index) + " has an unknown type");
-    if (accessor.count > (accessor.bufferView < 0 ? most_zero_rows : most_rows))
+    if (accessor.count > (accessor.bufferView < 0 ? max_zero_rows : max_rows))
         file.fail(where + ": accessor " + std::to_string(index) + " has too many elements");
     return accessor;
 }

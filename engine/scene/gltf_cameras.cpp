@@ -95,7 +95,7 @@ void load_cameras(GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& s
         const tinygltf::Camera& source = file.model.cameras[size_t(file.model.nodes[at.node].camera)];
         Camera camera;
         camera.position = vec3(glm::dvec3(at.world[3]) - scene.origin);
-        if (!(length(camera.position) < 2 * float(most_metres)))
+        if (!(length(camera.position) < 2 * float(max_metres)))
             file.fail(label("node", at.node, file.model.nodes[at.node].name) + ": the camera is too far away");
         camera.rotation = rotation_of(at.world);
         if (source.type == "orthographic")

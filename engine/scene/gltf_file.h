@@ -14,9 +14,9 @@
 namespace lw {
 
 /// Largest extent of a scene; farther, distances to powers overflow the floats of rays and estimates.
-constexpr double most_metres = 1e9;
+constexpr double max_metres = 1e9;
 /// Most cd, lx and cd/m2 of a lamp, which leaves the squares of errors within floats.
-constexpr float most_strength = 1e15f;
+constexpr float max_strength = 1e15f;
 
 struct GltfFile {
     std::string name;  // file name without folder, the first word of every message

@@ -84,7 +84,7 @@ void find_origin(const GltfFile& file, const std::vector<PlacedMesh>& placed, Sc
                 high = glm::max(high, world);
             }
     const glm::dvec3 size = high - low;
-    if (!(size.x < most_metres && size.y < most_metres && size.z < most_metres))
+    if (!(size.x < max_metres && size.y < max_metres && size.z < max_metres))
         file.fail("the scene is larger than 1e9 m");
     scene.origin = low + size * 0.5;
     scene.bounds = {vec3(low - scene.origin), vec3(high - scene.origin)};

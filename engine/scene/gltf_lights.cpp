@@ -37,8 +37,8 @@ Light punctual_light(const GltfFile& file, const tinygltf::Light& source, const 
     light.cos_outer = float(std::cos(outer));
     light.cos_inner = float(std::cos(std::clamp(source.spot.innerConeAngle, 0.0, outer)));
     if (!std::isfinite(dot(light.intensity, vec3(1)))) file.fail(where + ": the intensity is not finite");
-    if (dot(light.intensity, vec3(1)) > most_strength) file.fail(where + ": the intensity is larger than 1e15");
-    if (!(length(glm::dvec3(light.position)) < 2 * most_metres)) file.fail(where + ": the position is too far away");
+    if (dot(light.intensity, vec3(1)) > max_strength) file.fail(where + ": the intensity is larger than 1e15");
+    if (!(length(glm::dvec3(light.position)) < 2 * max_metres)) file.fail(where + ": the position is too far away");
     return light;
 }
 

@@ -15,7 +15,7 @@ vec3 vector_of(const tinygltf::Value& object, const std::string& key, vec3 other
             float(array.Get(2).GetNumberAsDouble())};
 }
 
-constexpr float least_attenuation = 1e-6f;  // a black attenuationColor still has a finite logarithm
+constexpr float min_attenuation = 1e-6f;  // a black attenuationColor still has a finite logarithm
 
 float unit(double value) { return float(std::clamp(value, 0.0, 1.0)); }
 
@@ -64,7 +64,7 @@ void read_volume(const GltfFile& file, const tinygltf::Material& source, const s
     if (!e || !(thickness > 0) || !e->Has("attenuationDistance")) return;
     const double distance = number_of(*e, "attenuationDistance", 1);
     if (!(distance > 0)) file.fail(where + ": attenuationDistance must be positive");
-    const vec3 color = glm::clamp(vector_of(*e, "attenuationColor", vec3(1)), vec3(least_attenuation), vec3(1));
+    const vec3 color = glm::clamp(vector_of(*e, "attenuationColor", vec3(1)), vec3(min_attenuation), vec3(1));
     m.absorption = -glm::log(color) / float(std::clamp(distance, 1e-9, 1e30));
 }
 
@@ -136,7 +136,7 @@ void load_materials(GltfFile& file, Scene& scene) {
         if (!std::isfinite(m.ior) || (m.ior != 0 && m.ior < 1)) file.fail(where + ": ior must be 0 or at least 1");
         if (!std::isfinite(m.emissive.x + m.emissive.y + m.emissive.z))
             file.fail(where + ": the emission is not finite");
-        if (m.emissive.x + m.emissive.y + m.emissive.z > most_strength)
+        if (m.emissive.x + m.emissive.y + m.emissive.z > max_strength)
             file.fail(where + ": the emission is larger than 1e15");
         if (!is_finite(m)) file.fail(where + ": a factor is not finite");
         scene.materials.push_back(m);

@@ -61,13 +61,13 @@ void add_profile_light(GltfFile& file, const PlacedNode& at, Scene& scene) {
         for (int c = 0; c < 3; ++c) color[c] = std::clamp(extension->Get("color").Get(c).GetNumberAsDouble(), 0.0, 1.0);
     Light light{};
     light.position = vec3(glm::dvec3(at.world[3]) - scene.origin);
-    if (!(length(glm::dvec3(light.position)) < 2 * most_metres)) file.fail(where + ": the position is too far away");
+    if (!(length(glm::dvec3(light.position)) < 2 * max_metres)) file.fail(where + ": the position is too far away");
     const glm::dvec3 aim = -glm::dvec3(at.world[2]);
     light.direction = glm::length(aim) > 0 ? vec3(glm::normalize(aim)) : vec3(0, -1, 0);
     light.across = across_of(at, light.direction);
     attach_photometry(photometry_of(file, index_of(*extension, "light", -1), scene), light, scene);
     light.intensity *= vec3(color * multiplier);
-    if (!(dot(light.intensity, vec3(1)) <= most_strength)) file.fail(where + ": the intensity is larger than 1e15");
+    if (!(dot(light.intensity, vec3(1)) <= max_strength)) file.fail(where + ": the intensity is larger than 1e15");
     scene.lights.push_back(light);
     scene.light_names.push_back(node.name.empty() ? "light_" + std::to_string(scene.lights.size()) : node.name);
 }

@@ -19,11 +19,11 @@ using Json = nlohmann::json;
 }  // namespace
 
 nlohmann::json read_json(const std::filesystem::path& path) {
-    constexpr uintmax_t most_bytes = uintmax_t(64) << 20;
+    constexpr uintmax_t max_bytes = uintmax_t(64) << 20;
     std::error_code failure;
     std::ifstream stream = open_input(path);
     if (!stream) throw Error(path.string() + ": cannot be opened");
-    if (std::filesystem::file_size(path, failure) > most_bytes) throw Error(path.string() + ": larger than 64 MiB");
+    if (std::filesystem::file_size(path, failure) > max_bytes) throw Error(path.string() + ": larger than 64 MiB");
     std::vector<std::set<std::string>> keys;  // of the objects that are open
     const auto check_keys = [&](int, Json::parse_event_t event, Json& value) {
         if (event == Json::parse_event_t::object_start) keys.emplace_back();

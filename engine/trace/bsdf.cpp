@@ -9,7 +9,7 @@ namespace lw {
 namespace {
 
 constexpr float narrow_roughness = 0.12f;  // its lobe is some 2 degrees wide
-constexpr float least_share = 0.1f;  // of samples for the lobes of rough glass, whose Fresnel factor varies by facet
+constexpr float min_share = 0.1f;  // of samples for the lobes of rough glass, whose Fresnel factor varies by facet
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
@@ -32,8 +32,8 @@ void share_samples(const SurfaceReader& reader, const Surface& s, Lobes& l) {
     const float opaque = reader.passed_by_fresnel(reader.dielectric_fresnel(s, l.nv, l.inside)) * (1 - s.transmission);
     const float diffuse = largest(s.base_color) * std::max(opaque, 0.0f) * (1 - s.metallic);
     if (!l.delta && s.transmission > 0 && s.metallic < 1) {
-        glossy = std::max(glossy, least_share);
-        transmit = std::max(transmit, least_share);
+        glossy = std::max(glossy, min_share);
+        transmit = std::max(transmit, min_share);
     }
     const float sum = diffuse + glossy + transmit;
     if (!(sum > 0) || (s.flags & material_unlit)) return;
@@ -53,7 +53,7 @@ Lobes lobes_at(const SurfaceReader& reader, const Surface& s, vec3 to_view) {
     l.eta_view = l.inside ? behind : 1.0f;
     l.eta_light = l.inside ? 1.0f : behind;
     l.alpha = s.roughness * s.roughness;
-    l.delta = l.alpha < smallest_alpha;
+    l.delta = l.alpha < min_alpha;
     l.delta_glass = reader.transmits_smoothly(s);
     l.mirror = reader.specular_reflectance(s, l.nv, l.inside);
     l.refraction = reader.transmitted_part(s, l.nv, l.inside);

@@ -15,7 +15,7 @@
 namespace lw {
 namespace {
 
-constexpr unsigned most_in_leaf = 4;
+constexpr unsigned max_in_leaf = 4;
 constexpr uint see_through_flags = material_alpha_mask | material_alpha_blend | material_thin;
 
 /// A node of Embree's builder before it is laid out depth first.
@@ -23,7 +23,7 @@ struct BuiltNode {
     std::array<RTCBounds, 2> bounds;
     std::array<BuiltNode*, 2> children;
     unsigned count;  // triangles of a leaf, 0 for an inner node
-    std::array<uint, most_in_leaf> triangles;
+    std::array<uint, max_in_leaf> triangles;
 };
 
 void* create_node(RTCThreadLocalAllocator allocator, unsigned, void*) {
@@ -96,7 +96,7 @@ Bvh build_bvh(const Scene& scene) {
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = 2;
-    arguments.maxLeafSize = most_in_leaf;
+    arguments.maxLeafSize = max_in_leaf;
     arguments.bvh = bvh.get();
     arguments.primitives = primitives.data();
     arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();

@@ -11,9 +11,9 @@ namespace lw {
 namespace {
 
 constexpr uint64_t paths_per_task = 4096;
-constexpr int most_bounces = 64;
+constexpr int max_bounces = 64;
 constexpr float roughest_caster = 0.35f;  // its lobe is some 15 degrees wide
-constexpr float least_alignment = 0.8f;   // cosine between the normals of a light's arrival and of the point it is for
+constexpr float min_alignment = 0.8f;     // cosine between the normals of a light's arrival and of the point it is for
 
 /// Of a Surface or a Material.
 bool is_polished(const auto& s) {
@@ -37,7 +37,7 @@ class CausticPath {
              direction = emission.direction, medium(0);
         bool direct = true;
         std::vector<Hit> passed;  // blends, which are lit all the same
-        for (int bounce = 0; bounce < most_bounces; ++bounce) {
+        for (int bounce = 0; bounce < max_bounces; ++bounce) {
             passed.clear();
             const std::optional<Hit> hit = caster_.nearest(origin, direction, rng, &passed);
             if (!direct)
@@ -90,7 +90,7 @@ bool casts_caustics(const Surface& s) { return is_polished(s); }
 bool has_caustics(const Scene& scene, std::span<const vec3> weights) {
     const auto is_specular = [](const Material& m) {
         const bool varies = m.metallic_roughness_texture.texture >= 0 || m.transmission_texture.texture >= 0;
-        const bool smooth = varies || m.roughness * m.roughness < smallest_alpha;
+        const bool smooth = varies || m.roughness * m.roughness < min_alpha;
         return is_polished(m) || (smooth && (m.metallic > 0 || m.specular > 0 || m.transmission > 0));
     };
     if (std::none_of(scene.materials.begin(), scene.materials.end(), is_specular)) return false;
@@ -153,7 +153,7 @@ void Caustics::visit_near(vec3 point, vec3 normal, const Visit& visit) const {
         for (uint i = cell_starts_[*cell]; i < cell_starts_[*cell + 1]; ++i) {
             const vec3 d = arrivals_[i].position - point;
             const float d2 = dot(d, d);
-            if (d2 < r2 && dot(arrivals_[i].normal, normal) > least_alignment)
+            if (d2 < r2 && dot(arrivals_[i].normal, normal) > min_alignment)
                 visit(arrivals_[i], 2 / (lw_pi * r2) * (1 - d2 / r2));
         }
 }

@@ -31,7 +31,7 @@ float sample_spot_cosine(const Light& light, float u) {
     return light.cos_outer + t * (light.cos_inner - light.cos_outer);
 }
 
-constexpr uint most_even_triangles = 8;  // beyond, sixteen samples cost less than the closed form
+constexpr uint max_even_triangles = 8;  // beyond, sixteen samples cost less than the closed form
 
 /// The part of triangle `corners` above the plane through the origin with unit `normal`: up to four corners.
 uint clip_to_horizon(const std::array<vec3, 3>& corners, vec3 normal, std::array<vec3, 4>& kept) {
@@ -80,7 +80,7 @@ vec3 Emitters::even_radiance_of(const Light& light) const {
 }
 
 bool Emitters::is_even(uint index) const {
-    return shines_alike(index) && scene_.lights[index].emitter_count <= most_even_triangles;
+    return shines_alike(index) && scene_.lights[index].emitter_count <= max_even_triangles;
 }
 
 vec3 Emitters::even_irradiance(uint index, vec3 point, vec3 normal) const {
@@ -246,7 +246,7 @@ float Emitters::arrive_pdf(const Surface& s, float distance, vec3 to_light) cons
     return cosine > 1e-6f ? distance * distance / (cosine * area_of(light)) : 0.0f;
 }
 
-std::vector<vec3> light_weights(const Scene& scene, const std::vector<vec3>& factors) {
+std::vector<vec3> light_powers(const Scene& scene, const std::vector<vec3>& factors) {
     std::vector<vec3> weights;
     for (size_t i = 0; i < scene.lights.size(); ++i)
         weights.push_back(scene.lights[i].intensity * (i < factors.size() ? factors[i] : vec3(1)));

@@ -10,7 +10,7 @@ namespace lw {
 namespace {
 
 constexpr int depth_of_roulette = 5;
-constexpr int longest_path = 1000;
+constexpr int max_path = 1000;
 
 float power_heuristic(float a, float b) { return a * a / (a * a + b * b); }
 
@@ -62,7 +62,7 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, cons
     vec3 sum(0), throughput(1), medium(0);
     float distance = 0;                          // since the last vertex that light sampling covers
     bool scattered = !first, by_mirror = false;  // has met a surface that shows caustics, and what casts them after it
-    for (int depth = 0; depth < longest_path; ++depth) {
+    for (int depth = 0; depth < max_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
         if (!hit) break;
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);

@@ -13,7 +13,7 @@ namespace lw {
 
 class PathTracer {
   public:
-    /// `weights`: RGB power of each lamp (light_weights()). All references must outlive the tracer.
+    /// `weights`: RGB power of each lamp (light_powers()). All references must outlive the tracer.
     PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> weights);
 
     /// One sample of the radiance arriving at `origin` from `direction`, cd/m2 per RGB. Unbiased, but for caustics:

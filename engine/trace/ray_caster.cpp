@@ -16,7 +16,7 @@
 namespace lw {
 namespace {
 
-constexpr int most_layers = 256;  // of holes and glass along a ray
+constexpr int max_layers = 256;  // of holes and glass along a ray
 
 RTCScene as_scene(void* handle) { return static_cast<RTCScene>(handle); }
 
@@ -138,7 +138,7 @@ std::optional<Hit> RayCaster::nearest_chosen(vec3 origin, vec3 direction, float 
     std::optional<Hit> hit = nearest_triangle(origin, direction, max_distance);
     if (!has_holes_) return hit;
     float passed = 0;
-    for (int layers = 0; hit && layers < most_layers; ++layers) {
+    for (int layers = 0; hit && layers < max_layers; ++layers) {
         const float there = opacity(*hit);
         if (there >= 1 || (there > 0 && number(*hit) < there)) break;
         if (passed_hits && there > 0)
@@ -176,7 +176,7 @@ vec3 RayCaster::transmittance(vec3 from, vec3 to) const {
     }
     vec3 passed_fraction(1);
     float passed = 0;
-    for (int layers = 0; layers < most_layers; ++layers) {
+    for (int layers = 0; layers < max_layers; ++layers) {
         const std::optional<Hit> hit = nearest_triangle(from + direction * passed, direction, far - passed);
         if (!hit) return passed_fraction;
         passed_fraction *= surfaces_.passed_by(hit->triangle, hit->barycentrics, direction);

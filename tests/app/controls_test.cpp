@@ -73,10 +73,10 @@ TEST(Gamepad, ButtonsFlyChangeTheViewHidePanelsJumpAndDim) {
     apply_buttons(b.session, {GLFW_GAMEPAD_BUTTON_START});
     EXPECT_FALSE(b.session.panels);
     apply_buttons(b.session, {GLFW_GAMEPAD_BUTTON_DPAD_RIGHT});
-    ASSERT_TRUE(b.session.flight);
-    EXPECT_EQ(b.session.flight->to.eye, b.world.scene.cameras[1].position);
+    ASSERT_TRUE(b.session.transition);
+    EXPECT_EQ(b.session.transition->to.eye, b.world.scene.cameras[1].position);
     apply_buttons(b.session, {GLFW_GAMEPAD_BUTTON_DPAD_LEFT, GLFW_GAMEPAD_BUTTON_DPAD_LEFT});
-    EXPECT_EQ(b.session.flight->to.eye, b.world.scene.cameras.back().position) << "round to the last";
+    EXPECT_EQ(b.session.transition->to.eye, b.world.scene.cameras.back().position) << "round to the last";
     b.session.lighting.selected = 2;
     apply_buttons(b.session, {GLFW_GAMEPAD_BUTTON_DPAD_DOWN, GLFW_GAMEPAD_BUTTON_DPAD_DOWN});
     EXPECT_NEAR(b.session.lighting.board[2].dimmer, 0.9f, 1e-5f);

@@ -1,6 +1,6 @@
 // lumenwalk on desktops of many kinds: fine screens, full screen, an icon, a lost device, the clipboard.
-#include "app/clipboard.h"
 #include "app/display.h"
+#include "app/window/clipboard.h"
 #include "image/exr.h"
 #include "image/png.h"
 

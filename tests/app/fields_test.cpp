@@ -1,13 +1,13 @@
 // Calculation grids of the window: the numbers of lumenwalk-measure, live under dimming, read behind the window's back.
-#include "app/fields.h"
+#include "app/measuring/fields.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "app/display.h"
-#include "app/field_reader.h"
-#include "app/metering.h"
+#include "app/measuring/field_reader.h"
+#include "app/measuring/metering.h"
 #include "maps/build.h"
 #include "photons/shoot.h"
 

@@ -1,12 +1,12 @@
 // Photometric files on lamps in the walkthrough: what the panel tells of them, and that they stay with the scene.
-#include "app/luminaire.h"
+#include "app/session/luminaire.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/lamp_board.h"
-#include "app/session.h"
+#include "app/session/lamp_board.h"
+#include "app/session/session.h"
 #include "programs/command.h"
 #include "scene/profile.h"
 

@@ -71,17 +71,17 @@ TEST(Motion, ThePlacesOfSurfacesKeepTheirLightWhileTheCameraWalks) {
     SKIP_WITHOUT_LAVAPIPE();
     Room room("cornell.gltf", {width, height}, 100'000);
     const auto frame_at = [&](float t) {
-        Seen seen{room.shot.camera, {}};
+        Seen seen{room.request.camera, {}};
         seen.camera.position += vec3(0.3f * t, 0.05f * t, -0.8f * t);
-        room.shot.camera = seen.camera;
+        room.request.camera = seen.camera;
         room.frame({{}, 5});
-        seen.lux = room.stage.read_values().find("illuminance")->values;
+        seen.lux = room.renderer.read_values().find("illuminance")->values;
         return seen;
     };
     std::vector<float> all;
     Seen before = frame_at(0);
     for (int i = 1; i <= 6; ++i) {
-        const Camera start = room.shot.camera;
+        const Camera start = room.request.camera;
         const Seen after = frame_at(0.04f);  // 3.4 cm: a brisk walk at 40 frames a second
         ASSERT_NE(start.position, after.camera.position);
         const std::vector<float> some = changes(room, before, after);
@@ -102,12 +102,12 @@ TEST(Motion, ThePlacesOfSurfacesKeepTheirLightWhileTheCameraWalks) {
 TEST(Motion, AFrameOfTheSameViewIsTheSameFrameWhateverWasShownBefore) {
     SKIP_WITHOUT_LAVAPIPE();
     Room room;
-    const Camera here = room.shot.camera;
+    const Camera here = room.request.camera;
     const std::vector<uint32_t> first = room.frame({{}, 5});
-    room.shot.camera.position += vec3(0.1f, 0, -0.3f);
+    room.request.camera.position += vec3(0.1f, 0, -0.3f);
     room.frame({{}, 5});
     room.frame({{}, 5});
-    room.shot.camera = here;
+    room.request.camera = here;
     EXPECT_EQ(room.frame({{}, 5}), first);
 }
 

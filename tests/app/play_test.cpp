@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/places.h"
+#include "app/walk/places.h"
 #include "image/png.h"
 #include "programs/command.h"
 #include "programs/lavapipe.h"
@@ -125,17 +125,17 @@ TEST(Bookmarks, ComeBackAsTheyWereSaved) {
     }
 }
 
-TEST(Flight, StartsAndEndsWhereItShouldAndTurnsTheShorterWay) {
-    Flight flight;
-    flight.from.yaw = 3, flight.to.yaw = -3;
-    flight.to.eye = vec3(2, 0, 0);
-    flight.seconds = 1;
-    EXPECT_EQ(walker_on(flight).yaw, 3);
-    flight.passed = 0.5f;
-    EXPECT_NEAR(std::abs(walker_on(flight).yaw), lw_pi, 1e-3f);
-    EXPECT_NEAR(walker_on(flight).eye.x, 1, 1e-5f);
-    flight.passed = 1;
-    EXPECT_EQ(walker_on(flight).eye, flight.to.eye);
+TEST(ViewTransition, StartsAndEndsWhereItShouldAndTurnsTheShorterWay) {
+    ViewTransition transition;
+    transition.from.yaw = 3, transition.to.yaw = -3;
+    transition.to.eye = vec3(2, 0, 0);
+    transition.seconds = 1;
+    EXPECT_EQ(walker_at(transition).yaw, 3);
+    transition.passed = 0.5f;
+    EXPECT_NEAR(std::abs(walker_at(transition).yaw), lw_pi, 1e-3f);
+    EXPECT_NEAR(walker_at(transition).eye.x, 1, 1e-5f);
+    transition.passed = 1;
+    EXPECT_EQ(walker_at(transition).eye, transition.to.eye);
 }
 
 }  // namespace

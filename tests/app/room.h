@@ -1,7 +1,7 @@
 // A small baked room on lavapipe, and frames of it without a window.
 #pragma once
-#include "app/stage.h"
-#include "app/world.h"
+#include "app/picture/progressive_renderer.h"
+#include "app/session/world.h"
 #include "gpu/buffer.h"
 #include "maps/build.h"
 #include "photons/shoot.h"
@@ -15,24 +15,24 @@ struct Room {
           map(std::make_shared<const PhotonMap>(build_photon_map(
               world.scene, world.caster, shoot_photons(world.scene, world.caster, {photons, 1}), {photons, 0, 60, 1}))),
           device({"llvmpipe", true, {}}),
-          stage(device, world.scene, map, world.bvh) {
-        stage.resize(size);
-        shot.camera = world.scene.cameras[0];
-        shot.lamps_a.assign(world.scene.lights.size(), vec3(1));
+          renderer(device, world.scene, map, world.bvh) {
+        renderer.resize(size);
+        request.camera = world.scene.cameras[0];
+        request.factors_a.assign(world.scene.lights.size(), vec3(1));
     }
 
     /// Codes of the screen after one more frame.
-    std::vector<uint32_t> frame(const Look& look) {
-        submit_and_wait(device, [&](vk::CommandBuffer commands) { stage.record(commands, shot, look, 0); });
-        return read_back<uint32_t>(device, stage.screen(), size_t(size.width) * size.height);
+    std::vector<uint32_t> frame(const DisplaySettings& display) {
+        submit_and_wait(device, [&](vk::CommandBuffer commands) { renderer.record(commands, request, display, 0); });
+        return read_back<uint32_t>(device, renderer.screen(), size_t(size.width) * size.height);
     }
 
     vk::Extent2D size;
     World world;
     std::shared_ptr<const PhotonMap> map;
     Device device;
-    Stage stage;
-    Shot shot;
+    ProgressiveRenderer renderer;
+    FrameRequest request;
 };
 
 }  // namespace lw

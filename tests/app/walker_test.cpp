@@ -1,5 +1,5 @@
 // Walking without a window: thousands of random steps end where they may, steps are climbed, walls slide.
-#include "app/walker.h"
+#include "app/walk/walker.h"
 
 #include <gtest/gtest.h>
 

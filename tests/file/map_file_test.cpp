@@ -116,7 +116,7 @@ TEST_F(MapFile, SignedMapsThatLeadOutOfTheirArraysAreRefused) {
     refused([](PhotonMap& m) { m.irradiance.values.pop_back(); });
     refused([](PhotonMap& m) { m.irradiance.marks.pop_back(); });
     refused([](PhotonMap& m) { m.irradiance.marks.push_back(0); });
-    refused([](PhotonMap& m) { m.caustic_sides = SparseWords(std::vector<uint>(m.triangle_maps.size(), 0)); });
+    refused([](PhotonMap& m) { m.caustic_sides = SparseArray(std::vector<uint>(m.triangle_maps.size(), 0)); });
     refused([](PhotonMap& m) { m.shadow_masks.push_back({uint(m.coverage.size()), 0, 1, 0, 0}); });
     refused([](PhotonMap& m) { m.shadow_masks.push_back({0, uint(m.emitted.size()), 1, 0, 0}); });
     refused([](PhotonMap& m) { m.shadow_masks.assign(2, {0, 0, 1, 0, 0}); });
@@ -215,7 +215,7 @@ TEST_F(MapFile, WithCutsRoundTripsAndIsRefusedWhenTheyLeadAstray) {
     refused("too many one after the other", [&](PhotonMap& m) {
         SurfaceGrid next = m.grids[cut];
         next.rows = next.first_cell = no_map;
-        for (uint i = 0; i <= most_cuts_deep + 1; ++i) {
+        for (uint i = 0; i <= max_cuts_deep + 1; ++i) {
             if (i > 0) m.grids.back().rows = uint(m.grids.size());
             m.grids.push_back(next);
         }

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "maps/build.h"
+#include "measure/option_parsing.h"
 #include "measure/survey.h"
-#include "measure/words.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
 

@@ -110,7 +110,7 @@ TEST(Meter, AnErrorAskedForIsReachedByBakingAgain) {
     EXPECT_GT(survey.map.stored_photons, map.stored_photons);
     EXPECT_LE(values_of(survey.sets[0], survey.ambiances[0], 1)[0].relative(), 0.02);
     EXPECT_EQ(survey.unreached, 0u);
-    settings.most_photons = 4000;
+    settings.max_photons = 4000;
     const Survey bounded = make_survey(scene, caster, map, {points({{{1, 0.7f, 1.5f}, {0, -1, 0}, Response::planar}})},
                                        {{"all", {vec3(1), vec3(1)}}}, settings);
     EXPECT_EQ(bounded.unreached, 1u);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/places.h"
+#include "app/walk/places.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "programs/command.h"

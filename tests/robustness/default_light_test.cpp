@@ -31,7 +31,7 @@ struct DefaultLight {
 
     Baked baked;
     Bvh bvh;
-    std::vector<vec3> weights = light_weights(baked.scene, {});
+    std::vector<vec3> weights = light_powers(baked.scene, {});
 };
 
 /// Calls read(mode, shadow rays) for every way.
@@ -104,19 +104,19 @@ TEST(DefaultLight, OfASheetACentimetreAboveTheFloorIsNotBelowIt) {
     for (int pieces : {1, 20}) {
         Room room = parted_house(divided(quad({1, 0.01, 1}, {0, 0, 2}, {2, 0, 0}), pieces));
         const DefaultLight light(room);
-        double most = 0, least_above = 1e9;
+        double most = 0, min_above = 1e9;
         in_every_way([&](uint mode, uint rays) {
             for (double x : {1.5, 2.0, 2.5}) {  // half a metre from where light comes in under its borders
-                least_above = std::min(least_above, light.lux(mode, rays, {x, 1.5, 2}, down));
+                min_above = std::min(min_above, light.lux(mode, rays, {x, 1.5, 2}, down));
                 for (const glm::dvec3& way : {down, up})
                     most = std::max(most, light.lux(mode, rays, {x, 0.005, 2}, way));
             }
         });
         tell_case("sheet 1 cm above the floor, in " + std::to_string(2 * pieces * pieces) +
                       " triangles, direct light exact, all modes",
-                  "below < 1 % of above", "%.1f lx above, %.2g below", least_above, most);
-        EXPECT_GT(least_above, 20);
-        EXPECT_LT(most, 0.01 * least_above) << pieces;
+                  "below < 1 % of above", "%.1f lx above, %.2g below", min_above, most);
+        EXPECT_GT(min_above, 20);
+        EXPECT_LT(most, 0.01 * min_above) << pieces;
     }
 }
 

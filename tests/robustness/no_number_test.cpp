@@ -34,8 +34,8 @@ struct Blinding {
         write_text(folder / "points.csv", "desk,0.5,-1,0.5\n");
         EXPECT_EQ(run("bake", {scene, "--photons", "2000"}).exit_code, 0);
         std::string bytes = read_text(map);
-        const float least_scale = 0x1p-100f;  // light is divided by it
-        for (size_t scale_at : {64, 72}) std::memcpy(bytes.data() + scale_at, &least_scale, sizeof least_scale);
+        const float min_scale = 0x1p-100f;  // light is divided by it
+        for (size_t scale_at : {64, 72}) std::memcpy(bytes.data() + scale_at, &min_scale, sizeof min_scale);
         sign_map(bytes);
         write_text(map, bytes);
     }
@@ -81,7 +81,7 @@ TEST(NoNumber, IsInNoPictureOfTheReferenceWhateverTheCamera) {
     const Room room = plain_room();
     const Scene scene = load(room);
     const RayCaster caster(scene);
-    const std::vector<vec3> weights = light_weights(scene, {});
+    const std::vector<vec3> weights = light_powers(scene, {});
     ReferenceSettings settings;
     settings.width = 8, settings.height = 6, settings.samples = 4;
     for (float degrees : {1.0f, 60.0f, 170.0f})
@@ -99,7 +99,7 @@ TEST(NoNumber, IsInNoPictureOfTheReferenceWhateverTheCamera) {
 TEST(NoNumber, IsReadWhereAllPhotonsLieInOnePoint) {
     Baked baked(plain_room(), 1'000);
     const SurfaceReader surface(baked.scene);
-    const std::vector<vec3> weights = light_weights(baked.scene, {});
+    const std::vector<vec3> weights = light_powers(baked.scene, {});
     const std::vector<Photon> all = baked.photons.records;
     for (const uint triangle : {0u, 1u, 2u, 3u}) {  // of some the point is read at a distance of exactly 0
         const auto photon =

@@ -22,7 +22,7 @@ struct Room {
     const char* material;
     float roughness;
     uint64_t samples;
-    uint most_views = 256;  // as the window adds up
+    uint max_views = 256;  // as the window adds up
 };
 
 Scene scene_of(const Bench& bench, const Room& room) {
@@ -136,7 +136,7 @@ std::vector<Row> measure_room(const Bench& bench, const Room& described) {
                         bench.pick<uint64_t>(200'000, 4'000'000));
     std::vector<Row> rows;
     for (uint views : {1u, 8u, 64u, 256u, 1024u}) {
-        if (views > bench.pick(256u, described.most_views)) break;
+        if (views > bench.pick(256u, described.max_views)) break;
         const TimedFrame frame = room.render(default_gather(), views < 32 ? 3 : 1, views);
         Row row{{"room", described.file},
                 {"material", described.material},

@@ -13,7 +13,7 @@ constexpr vec3 room_size(10, 3, 8);                   // m
 constexpr float total_flux = 20'000;                  // lm
 constexpr float panel_side = 0.6f;                    // m
 constexpr size_t coarse_triangles = 2 * 6 * (1 + 5);  // the shell and five boxes
-constexpr size_t fewest_sculpture_triangles = 200;
+constexpr size_t min_sculpture_triangles = 200;
 constexpr uint texture_side = 256;  // texels
 
 enum MaterialIndex : uint { walls, furniture, sculpture, lamp };
@@ -239,7 +239,7 @@ Scene make_room(const RoomSettings& settings) {
     maker.add_box({vec3(0), room_size}, true);
     maker.begin_object("furniture", furniture);
     for (const Box& box : boxes) maker.add_box(box, false);
-    if (fine >= fewest_sculpture_triangles) add_sculptures(maker, uint(std::sqrt(float(fine) / 16)));
+    if (fine >= min_sculpture_triangles) add_sculptures(maker, uint(std::sqrt(float(fine) / 16)));
     for (uint i = 0; i < settings.lights; ++i) {
         const bool point = settings.lamps == Lamps::points || (settings.lamps == Lamps::alternating && i % 2 == 1);
         point ? add_point(scene, i, settings.lights) : add_panel(scene, maker, i, settings.lights);

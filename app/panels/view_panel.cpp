@@ -1,0 +1,181 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/measuring/metering.h"
+#include "app/panels/panels.h"
+#include "base/memory.h"
+
+namespace lw {
+namespace {
+
+constexpr const char* view_names[view_count] = {
+    "shaded",  "illuminance, lx",      "luminance, cd/m2", "difference, lx",    "difference, %",
+    "photons", "photons per estimate", "bandwidth, cm",    "estimated error, %"};
+constexpr const char* curve_names[curve_count] = {"neutral (Khronos)", "linear, clipped", "soft (Reinhard)"};
+
+void draw_view_choice(Session& s) {
+    Viewing& v = s.viewing;
+    int view = int(v.view);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::Combo("##view", &view, view_names, int(view_count))) v.view = uint(view);
+    ImGui::Checkbox("reflections of lamps", &v.reflections);
+    if (v.view == view_shaded || v.view == view_photons) return;
+    ImGui::Checkbox("auto range", &v.auto_range);
+    ImGui::SameLine();
+    if (!is_signed_view(v.view)) ImGui::Checkbox("logarithmic", &v.logarithmic);
+    if (!v.auto_range) {
+        ImGui::SetNextItemWidth(90);
+        ImGui::InputFloat("from", &v.low, 0, 0, "%.4g");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(90);
+        ImGui::InputFloat("to", &v.high, 0, 0, "%.4g");
+        if (!std::isfinite(v.low)) v.low = 0;
+        if (!std::isfinite(v.high) || v.high <= v.low) v.high = v.low + 1;
+    }
+    ImGui::Checkbox("isolux lines", &v.lines);
+}
+
+void draw_exposure(Viewing& v) {
+    ImGui::Checkbox("automatic", &v.auto_exposure);
+    ImGui::SetNextItemWidth(150);
+    ImGui::SliderFloat("EV", &v.exposure_ev, -4, 18, "%.2f");
+    if (ImGui::IsItemEdited()) v.auto_exposure = false;
+    int curve = int(v.curve);
+    ImGui::SetNextItemWidth(150);
+    if (ImGui::Combo("curve", &curve, curve_names, int(curve_count))) v.curve = uint(curve);
+}
+
+void draw_comparison(Session& s) {
+    Comparison& c = s.comparison;
+    ImGui::Checkbox("A | B", &c.on);
+    ImGui::SameLine();
+    if (ImGui::Button("keep these lamps as B")) {
+        c.board = s.lighting.board;
+        c.name = "kept";
+        c.on = true;
+    }
+    ImGui::SetNextItemWidth(150);
+    if (ImGui::BeginCombo("B", c.name.c_str())) {
+        const auto choose = [&](const std::string& name, const Ambiance& ambiance) {
+            std::vector<std::string> missing;
+            c.board = with_ambiance(s.world.scene, ambiance, missing);
+            c.name = name;
+            c.on = true;
+        };
+        if (ImGui::Selectable("as in the file")) choose("as in the file", {});
+        for (const auto& [name, ambiance] : s.lighting.book.ambiances)
+            if (ImGui::Selectable(name.c_str())) choose(name, ambiance);
+        ImGui::EndCombo();
+    }
+    ImGui::SetNextItemWidth(150);
+    ImGui::SliderFloat("edge", &c.split, 0, 1, "%.2f");
+    if (ImGui::Button("difference lx")) c.on = true, s.viewing.view = view_difference, s.viewing.auto_range = true;
+    ImGui::SameLine();
+    if (ImGui::Button("difference %"))
+        c.on = true, s.viewing.view = view_relative_difference, s.viewing.auto_range = true;
+}
+
+void draw_quality(Viewing& v, const FrameStatistics& statistics) {
+    constexpr const char* modes[] = {"exact: k nearest photons", "smooth: photons, one pass",
+                                     "cached: irradiance of the bake"};
+    int mode = int(v.gather.mode);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::Combo("##mode", &mode, modes, 3)) v.gather.mode = uint(mode);
+    int neighbours = int(v.gather.neighbours), rays = int(v.gather.shadow_rays), samples = int(v.max_samples);
+    ImGui::SetNextItemWidth(110);
+    if (ImGui::SliderInt("photons per estimate", &neighbours, 10, 1000, "%d", ImGuiSliderFlags_Logarithmic))
+        v.gather.neighbours = uint(std::clamp(neighbours, 1, 1000));
+    ImGui::SetNextItemWidth(110);
+    if (ImGui::SliderInt("shadow rays", &rays, 0, 64)) v.gather.shadow_rays = uint(std::clamp(rays, 0, 64));
+    ImGui::SetNextItemWidth(110);
+    if (ImGui::SliderInt("views while still", &samples, 1, 256)) v.max_samples = uint(std::clamp(samples, 1, 4096));
+    int divisor = int(v.divisor);
+    ImGui::SetNextItemWidth(110);
+    if (ImGui::Combo("pixels in motion", &divisor, "automatic\0all\0half\0third\0quarter\0")) v.divisor = uint(divisor);
+    if (statistics.error)
+        ImGui::Text("estimated error %.1f %%, 95th percentile %.1f %%", double(statistics.error->x),
+                    double(statistics.error->y));
+    else
+        ImGui::TextDisabled("estimated error: when still, without A | B");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip(
+            "standard error of the photons' part of the illuminance at the setting above;\n"
+            "the cached mode has less: it averages neighbouring estimates");
+}
+
+void draw_places(Session& s) {
+    const std::vector<Camera>& cameras = s.world.scene.cameras;
+    for (size_t i = 0; i < cameras.size() + s.bookmarks.size(); ++i) {
+        const std::string& name = i < cameras.size() ? cameras[i].name : s.bookmarks[i - cameras.size()].name;
+        if (ImGui::Selectable((std::to_string(i + 1) + "  " + name).c_str())) fly_to(s, i);
+    }
+    if (ImGui::Button("bookmark (B)")) add_bookmark(s);
+    ImGui::SameLine();
+    if (ImGui::Button(s.recording ? "end recording (R)" : "record walk (R)")) toggle_recording(s);
+    float degrees = s.yfov * 180 / lw_pi;
+    ImGui::SetNextItemWidth(110);
+    if (ImGui::SliderFloat("field of view", &degrees, 20, 110, "%.0f deg"))
+        s.yfov = std::clamp(degrees, 5.0f, 150.0f) * lw_pi / 180;
+    ImGui::SetNextItemWidth(110);
+    if (ImGui::SliderFloat("eye height", &s.body.eye_height, 0.5f, 2.2f, "%.2f m"))
+        s.body.eye_height = std::clamp(s.body.eye_height, 1.5f * s.body.step, 3.0f);
+}
+
+void draw_pins(Session& s) {
+    ImGui::Checkbox("probe under the crosshair (P)", &s.metering.on);
+    for (size_t i = 0; i < s.metering.pins.size(); ++i) {
+        const Measurement& m = s.metering.pins[i].value;
+        ImGui::Text("%zu  %.4g lx +- %.2g", i + 1, double(m.lux), double(m.half_width_lux));
+        ImGui::SameLine();
+        ImGui::PushID(int(i));
+        const bool gone = ImGui::SmallButton("x");
+        ImGui::PopID();
+        if (gone) s.metering.pins.erase(s.metering.pins.begin() + std::ptrdiff_t(i--));
+    }
+    if (!s.metering.pins.empty() && ImGui::Button("save as CSV")) save_pins(s);
+}
+
+void draw_statistics(const Session& s) {
+    const FrameStatistics& t = s.statistics;
+    ImGui::Text("%.1f frames/s, %.1f ms", t.frame_ms > 0 ? 1000 / t.frame_ms : 0, t.frame_ms);
+    ImGui::Text("visibility %.2f ms, gather %.2f ms,\nview %.2f ms", t.times.visibility_ms, t.times.gather_ms,
+                t.times.view_ms);
+    ImGui::Text("%u of %u views summed, pixels 1/%u", t.samples, s.viewing.max_samples, t.times.divisor);
+    ImGui::Text("%s photons", std::to_string(t.photons).c_str());
+    ImGui::Text("%s on the device,\n%s in the program", bytes_text(t.device_bytes).c_str(),
+                bytes_text(resident_memory()).c_str());
+}
+
+}  // namespace
+
+void draw_view_panel(Session& s) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(ImVec2(std::max(0.0f, display.x - 300), 10), ImGuiCond_Once);
+    ImGui::SetNextWindowSize(ImVec2(290, std::max(120.0f, std::min(620.0f, display.y - 60))), ImGuiCond_Once);
+    const auto section = [](const char* name, bool open) {
+        ImGui::SetNextItemOpen(open, ImGuiCond_Once);
+        return ImGui::CollapsingHeader(name);
+    };
+    if (ImGui::Begin("View")) {
+        draw_view_choice(s);
+        if (section("Exposure", true)) draw_exposure(s.viewing);
+        if (section("Compare", false)) draw_comparison(s);
+        if (section("Probe", true)) draw_pins(s);
+        if (section("Calculation grids", false)) draw_field_section(s);
+        if (section("Places", false)) draw_places(s);
+        s.viewing.wants_error = section("Quality", false);
+        if (s.viewing.wants_error) draw_quality(s.viewing, s.statistics);
+        if (section("Statistics", true)) draw_statistics(s);
+        ImGui::Separator();
+        if (ImGui::Button("save (F2)")) s.picture_request = PictureRequest::save;
+        ImGui::SameLine();
+        if (ImGui::Button("copy (F3)")) s.picture_request = PictureRequest::copy;
+        ImGui::SameLine();
+        if (ImGui::Button("keys (F1)")) s.keys = !s.keys;
+    }
+    ImGui::End();
+}
+
+}  // namespace lw

@@ -1,0 +1,105 @@
+// One baked scene on the device, and the picture of it at one size: lamps A and B, moving and still, one frame at a
+// time.
+#pragma once
+#include <optional>
+
+#include "gather/live_view.h"
+
+namespace lw {
+
+/// How a frame is to look.
+struct DisplaySettings {
+    ViewKind kind;
+    float exposure_ev = 7;
+    float low = 0, high = 500;  // false colours
+    bool logarithmic = false;
+    uint lines = 0;      // isolux lines over the range
+    float split = 0.5f;  // B is shown right of this part of the width
+    bool bgr = false;    // byte order of the screen
+};
+
+/// What a frame is to show.
+struct FrameRequest {
+    Camera camera;
+    std::vector<vec3> factors_a, factors_b;  // factors; b empty: no comparison
+    GatherSettings gather;
+    uint max_samples = 1;  // while nothing changes
+    uint divisor = 1;      // of the picture's width and height while things change
+    bool sharpens = true;  // to all pixels once nothing changes
+    double max_ms = 0;     // that one frame adds to a still picture, in bands of rows; 0: whole samples
+};
+
+/// Milliseconds of the passes of a frame, on the device's clock.
+struct RendererTimes {
+    double visibility_ms = 0, gather_ms = 0, view_ms = 0;
+    uint divisor = 1;  // of the picture's sides
+    uint rows = 0;     // of a later sample of a still picture that were added; 0: the first sample, or nothing
+    bool drew = false;
+    double sum() const { return visibility_ms + gather_ms + view_ms; }
+};
+
+class ProgressiveRenderer {
+  public:
+    /// Device, scene and hierarchy must outlive it. Throws Error when the device has not enough memory.
+    ProgressiveRenderer(const Device& device, const Scene& scene, std::shared_ptr<const PhotonMap> map, const Bvh& bvh);
+
+    const PhotonMap& map() const { return *map_; }
+    uint64_t bytes() const { return resident_.bytes(); }
+    /// Throws Error when the size is beyond the device.
+    void resize(vk::Extent2D size);
+
+    /// Records a frame of shot and look; samples of the same shot add up.
+    void record(vk::CommandBuffer commands, const FrameRequest& request, const DisplaySettings& display, uint slot);
+    /// The next frame starts anew, whatever it shows.
+    void forget() { drawn_.reset(); }
+    /// True when the next frame of this shot adds to the picture instead of starting anew.
+    bool shows(const FrameRequest& request, uint view) const;
+    const Buffer& screen() const { return live_->screen(); }
+    uint samples() const { return samples_; }
+    /// True when more frames of the same shot would change nothing.
+    bool is_finished(const FrameRequest& request) const;
+    /// Values of the last frame of a slot, whose commands must have finished; empty when it showed another view.
+    std::vector<ReadbackPixel> readback(uint slot, uint view) const;
+    /// Values of an inspecting view of what A shows, made and waited for; the slot's next frame must follow. Not while
+    /// B is shown.
+    std::vector<ReadbackPixel> inspect(const FrameRequest& request, uint view, uint slot);
+    /// Times of the last frame of a slot; its commands must have finished.
+    RendererTimes times(uint slot) const;
+    /// Values of what A shows (Rendering::image); waits for the device.
+    Image read_values() const {
+        return live_->read_values(drawn_ ? drawn_->request.camera : Camera(), picture_size_, std::max(samples_, 1u),
+                                  fresh_rows_);
+    }
+
+  private:
+    struct Drawn {  // what the samples so far show
+        FrameRequest request;
+        uint inspected_view = view_shaded;
+    };
+    struct Band {       // what a slot's frame added
+        uint rows = 0;  // as RendererTimes
+        uint view = 0;
+        bool drew = false;
+    };
+    Rows next_rows(const FrameRequest& request) const;
+    void record_lights(vk::CommandBuffer commands, const FrameRequest& request, const DisplaySettings& display,
+                       Rows rows);
+
+    const Device* device_;
+    std::shared_ptr<const PhotonMap> map_;
+    Resident resident_;
+    std::optional<LiveView> live_;
+    std::optional<Drawn> drawn_;
+    vk::Extent2D picture_size_;
+    uint samples_ = 0;       // whole ones
+    uint fresh_rows_ = 0;    // have one sample more
+    uint rows_at_once_ = 0;  // in the last band; 0: none yet
+    double ms_per_row_ = 0;  // of the gather of this still picture; 0: not known
+    uint view_ = 0;          // counts pictures that begin anew
+    std::array<Timestamps, 2> timestamps_;
+    std::array<uint, 2> views_{};  // of each slot's frame
+    std::array<uint, 2> timed_{};  // divisor of each slot's frame, 0: none yet
+    std::array<Band, 2> bands_{};
+};
+
+}  // namespace lw

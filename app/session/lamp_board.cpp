@@ -1,0 +1,84 @@
+#include "app/session/lamp_board.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace lw {
+namespace {
+
+float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+/// Luminous flux per unit of intensity, lm; 0 for directional light, whose flux depends on the scene.
+float unit_flux(const Light& light) {
+    switch (light.type) {
+        case light_point:
+            return 4 * lw_pi;
+        case light_spot:
+            return 2 * lw_pi * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
+        case light_mesh:
+            return lw_pi * light.area;
+        default:
+            return 0;
+    }
+}
+
+}  // namespace
+
+std::vector<vec3> factors_of(const LampBoard& board) {
+    const bool any_solo = std::any_of(board.begin(), board.end(), [](const LampState& l) { return l.solo; });
+    std::vector<vec3> factors;
+    for (const LampState& lamp : board)
+        factors.push_back(lamp.on && (lamp.solo || !any_solo) ? lamp.dimmer * lamp.color : vec3(0));
+    return factors;
+}
+
+Ambiance ambiance_of(const Scene& scene, const LampBoard& board) {
+    Ambiance ambiance;
+    for (size_t i = 0; i < board.size(); ++i) {
+        const LampSetting setting{board[i].on ? board[i].dimmer : 0.0f, board[i].color};
+        if (setting != LampSetting{}) ambiance[scene.light_names[i]] = setting;
+    }
+    return ambiance;
+}
+
+LampBoard with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing) {
+    LampBoard board(scene.lights.size());
+    for (const auto& [name, setting] : ambiance) {
+        const auto found = std::find(scene.light_names.begin(), scene.light_names.end(), name);
+        if (found == scene.light_names.end()) {
+            missing.push_back(name);
+            continue;
+        }
+        LampState& lamp = board[size_t(found - scene.light_names.begin())];
+        lamp.dimmer = setting.factor;
+        lamp.on = setting.factor > 0;
+        if (!lamp.on) lamp.dimmer = 1;
+        lamp.color =
+            factor_of({1, setting.color, setting.kelvin}, scene.lights[size_t(&lamp - board.data())].intensity);
+    }
+    return board;
+}
+
+std::vector<vec3> mixed(const std::vector<vec3>& from, const std::vector<vec3>& to, float t) {
+    std::vector<vec3> factors(to.size());
+    for (size_t i = 0; i < to.size(); ++i) factors[i] = mix(from[i], to[i], clamp(t, 0.0f, 1.0f));
+    return factors;
+}
+
+const char* unit_of(const Light& light) {
+    return light.type == light_directional ? "lx" : light.type == light_mesh ? "cd/m2" : "cd";
+}
+
+std::string power_text(const Light& light, float dimmer, float profile_flux) {
+    const float intensity = luminance(light.intensity) * dimmer;
+    char text[64];
+    const float lumens = (light.type == light_profile ? profile_flux : unit_flux(light)) * intensity;
+    if (lumens > 0)
+        std::snprintf(text, sizeof text, "%.4g %s, %.4g lm", double(intensity), unit_of(light), double(lumens));
+    else
+        std::snprintf(text, sizeof text, "%.4g %s", double(intensity), unit_of(light));
+    return text;
+}
+
+}  // namespace lw

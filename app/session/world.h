@@ -1,0 +1,29 @@
+// The building as the walkthrough needs it: the scene, rays through it, what bodies bump into.
+#pragma once
+#include <map>
+#include <memory>
+
+#include "app/session/luminaire.h"
+#include "app/walk/surroundings.h"
+#include "maps/photon_map.h"
+#include "scene/bvh.h"
+
+namespace lw {
+
+struct World {
+    /// Loads the scene with photometric files ("LAMP=FILE") on its lamps, prints its warnings. Throws Error as
+    /// load_gltf() and with_photometry().
+    World(const std::filesystem::path& path, const std::vector<std::string>& photometry);
+
+    Scene scene;
+    RayCaster caster;
+    Bvh bvh;
+    Surroundings around;
+    std::map<size_t, Luminaire> luminaires;  // of lamps with a light distribution
+};
+
+/// The map at `path`, or none with the reason ("" when there is just no file): missing, stale or damaged.
+std::shared_ptr<const PhotonMap> try_load_map(const std::filesystem::path& path, const Scene& scene,
+                                              std::string& reason);
+
+}  // namespace lw

@@ -1,0 +1,55 @@
+// Words of which many are zero, as a bit for each and those that are not.
+#pragma once
+#include <bit>
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shaders/types.h"
+
+namespace lw {
+
+/// Marks and values are what a file holds; accept() makes them readable.
+struct SparseArray {
+    std::vector<uint> marks;   // 32 words each, the first at the lowest bit
+    std::vector<uint> values;  // of the marked words, in order
+
+    SparseArray() = default;
+    explicit SparseArray(std::span<const uint> words) : marks((words.size() + 31) / 32, 0) {
+        for (size_t i = 0; i < words.size(); ++i)
+            if (words[i]) marks[i / 32] |= 1u << (i % 32);
+        values.reserve(find_starts());
+        for (uint word : words)
+            if (word) values.push_back(word);
+    }
+
+    /// False when these are not `count` words: marks beyond them, or another number of values than of marks.
+    bool accept(uint64_t count) {
+        if (marks.size() != (count + 31) / 32 || (count % 32 != 0 && marks.back() >> (count % 32) != 0)) return false;
+        return find_starts() == values.size();
+    }
+    uint operator[](size_t i) const {
+        assert(i / 32 < starts_.size());
+        const uint mark = marks[i / 32];
+        if (((mark >> (i % 32)) & 1u) == 0) return 0;
+        return values[starts_[i / 32] + uint64_t(std::popcount(mark & ((1u << (i % 32)) - 1u)))];
+    }
+    bool empty() const { return marks.empty(); }
+    uint64_t bytes() const {
+        return (marks.size() + values.size()) * sizeof(uint) + starts_.size() * sizeof(starts_[0]);
+    }
+
+  private:
+    /// Returns the number of marked words.
+    uint64_t find_starts() {
+        uint64_t found = 0;
+        starts_.clear();
+        starts_.reserve(marks.size());
+        for (uint mark : marks) starts_.push_back(found), found += uint64_t(std::popcount(mark));
+        return found;
+    }
+    std::vector<uint64_t> starts_;  // of the values of each mark
+};
+
+}  // namespace lw
