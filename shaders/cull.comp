@@ -8,7 +8,6 @@
 #include "project.glsl"
 
 layout(local_size_x = cull_group) in;
-layout(constant_id = constant_pixel_margin) const float pixel_margin = 0.0625f;
 layout(push_constant, scalar) uniform Push { Frame frame; };
 layout(set = 1, binding = binding_clusters) uniform utextureBuffer clusters;
 layout(set = 1, binding = binding_survivors, scalar) writeonly buffer Blocks { Survivors blocks[]; };

@@ -7,12 +7,6 @@
 namespace lw {
 #endif
 
-LW_CONST uint binding_clusters = 0u;   // RGBA32UI texels, cluster_texels for each Cluster
-LW_CONST uint binding_survivors = 1u;  // Survivors, blocks_per_cluster for each Cluster
-LW_CONST uint binding_draws = 2u;      // DrawArguments of opaque triangles, and of those in see-through clusters
-LW_CONST uint binding_listed = 3u;     // triangles to draw: opaque ones first, the others from constant_first_listed on
-LW_CONST uint binding_listed_texels = 4u;  // the same as R32UI texels
-
 /// Neighbours in the scene's order. Those of opaque clusters come first in the array.
 struct Cluster {
     vec3 low;  // bounds

@@ -1,40 +1,7 @@
 // The scene and its map as the shaders find them in descriptor set 0 (frame.h, gather/resident): specialization
 // constants, arrays, and the functions by which the texts shared with C++ read them.
 #include "frame.h"
-
-layout(constant_id = constant_has_uv0) const bool has_uv0 = true;
-layout(constant_id = constant_has_uv1) const bool has_uv1 = true;
-layout(constant_id = constant_has_colors) const bool has_colors = true;
-layout(constant_id = constant_has_tangents) const bool has_tangents = true;
-layout(constant_id = constant_has_textures) const bool has_textures = true;
-layout(constant_id = constant_has_directions) const bool has_directions = true;
-layout(constant_id = constant_has_alpha) const bool has_alpha = true;
-layout(constant_id = constant_has_transmission) const bool has_transmission = true;
-layout(constant_id = constant_chunks) const uint chunks = 1u;
-layout(constant_id = constant_chunk_shift) const uint chunk_shift = 27u;
-layout(constant_id = constant_gather_mode) const uint gather_mode = 1u;
-layout(constant_id = constant_heap_size) const uint heap_size = 256u;
-layout(constant_id = constant_has_direct) const bool has_direct = true;
-layout(constant_id = constant_has_coverage) const bool has_coverage = true;
-layout(constant_id = constant_has_visible_lamps) const bool has_visible_lamps = true;
-layout(constant_id = constant_has_followed) const bool has_followed = true;
-layout(constant_id = constant_looks_through) const bool looks_through = true;
-layout(constant_id = constant_followed_roughness) const float followed_roughness = 0.0f;
-layout(constant_id = constant_of_followed) const bool of_followed = false;
-layout(constant_id = constant_has_mesh_lamps) const bool has_mesh_lamps = true;
-layout(constant_id = constant_has_metallic_roughness_textures) const bool has_metallic_roughness_textures = true;
-layout(constant_id = constant_has_transmission_textures) const bool has_transmission_textures = true;
-layout(constant_id = constant_has_emissive_textures) const bool has_emissive_textures = true;
-layout(constant_id = constant_has_shadow_rays) const bool has_shadow_rays = true;
-layout(constant_id = constant_has_caustics) const bool has_caustics = true;
-layout(constant_id = constant_has_smooth_caustics) const bool has_smooth_caustics = true;
-layout(constant_id = constant_has_shadow_masks) const bool has_shadow_masks = true;
-layout(constant_id = constant_has_profiles) const bool has_profiles = true;
-layout(constant_id = constant_first_cut) const uint first_cut = no_map;
-layout(constant_id = constant_first_caustic_map) const uint first_caustic_map = no_map;
-layout(constant_id = constant_first_caustic_cut) const uint first_caustic_cut = no_map;
-layout(constant_id = constant_first_see_through) const uint first_see_through = no_map;
-layout(constant_id = constant_stage) const uint stage = stage_photons;
+#include "frame_constants.h"
 
 layout(set = 0, binding = binding_corners) uniform textureBuffer corners;
 layout(set = 0, binding = binding_triangles) uniform utextureBuffer triangles;

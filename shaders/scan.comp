@@ -4,9 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "cull.h"
+#include "frame_constants.h"
 
 layout(local_size_x = cull_group) in;
-layout(constant_id = constant_first_listed) const uint first_see_through = 0u;
 layout(set = 1, binding = binding_survivors, scalar) buffer Blocks { Survivors blocks[]; };
 layout(set = 1, binding = binding_draws, scalar) writeonly buffer Draws { DrawArguments draws[]; };
 layout(set = 1, binding = binding_listed, scalar) writeonly buffer Listed { uint listed[]; };
@@ -41,7 +41,7 @@ void place(uint kind, uint first_block, uint end_block, uint first_place) {
 }
 
 void main() {
-    uint first_other = first_see_through / block_triangles;
+    uint first_other = first_listed / block_triangles;
     place(0u, 0u, first_other, 0u);
-    place(1u, first_other, uint(blocks.length()), first_see_through);
+    place(1u, first_other, uint(blocks.length()), first_listed);
 }

@@ -22,5 +22,7 @@ using uint = uint32_t;
 #define LW_INLINE
 #define LW_MEMBER
 #define LW_INOUT(T) inout T
+// A row of frame_constants.h or view_constants.h.
+#define LW_CONSTANT(type, name, value) layout(constant_id = __LINE__) const type name = value;
 #endif
 #endif

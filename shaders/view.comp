@@ -5,15 +5,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "view.h"
+#include "view_constants.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = constant_view) const uint shown_view = view_shaded;
-layout(constant_id = constant_curve) const uint shown_curve = curve_neutral;
-layout(constant_id = constant_has_lines) const bool has_lines = true;
-layout(constant_id = constant_has_split) const bool has_split = true;
-layout(constant_id = constant_is_scaled) const bool is_scaled = true;
 layout(push_constant, scalar) uniform Push { ViewPush push; };
-layout(constant_id = constant_is_readback) const bool is_readback = false;
 layout(set = 0, binding = binding_view_light) uniform textureBuffer light;
 layout(set = 0, binding = binding_view_other) uniform textureBuffer other;
 layout(set = 0, binding = binding_view_visibility) uniform utexture2D visibility;

@@ -1,6 +1,7 @@
 // What the walkthrough shows of a picture, shared by C++ and GLSL: views, push constants, false colours.
 #ifndef LW_VIEW_H
 #define LW_VIEW_H
+#include "bindings.h"
 #include "tonemap.glsl"
 #include "types.h"
 #ifdef __cplusplus
@@ -22,21 +23,6 @@ LW_CONST uint curve_neutral = 0u;  // Khronos PBR Neutral
 LW_CONST uint curve_linear = 1u;   // clipped at white
 LW_CONST uint curve_soft = 2u;     // x / (1 + x) on the luminance (Reinhard et al. 2002)
 LW_CONST uint curve_count = 3u;
-
-LW_CONST uint binding_view_light = 0u;  // A: RGB cd/m2, lx; sums over its samples; texels
-LW_CONST uint binding_view_other = 1u;  // B, or what an estimate stands on (shaders/inspect.glsl)
-LW_CONST uint binding_view_visibility = 2u;
-LW_CONST uint binding_view_screen = 3u;
-LW_CONST uint binding_view_readback = 4u;
-
-// Specialization constants of the view pass: some devices run both sides of a branch.
-LW_CONST uint constant_view = 0u;
-LW_CONST uint constant_curve = 1u;
-LW_CONST uint constant_has_lines = 2u;
-LW_CONST uint constant_has_split = 3u;
-LW_CONST uint constant_is_scaled = 4u;    // picture and screen differ in size
-LW_CONST uint constant_is_readback = 5u;  // an invocation per cell of the readback instead of per pixel
-LW_CONST uint view_constant_count = 6u;
 
 /// A grid of pixels whose values go back to the CPU each frame, for exposure and ranges.
 LW_CONST uint readback_columns = 64u;

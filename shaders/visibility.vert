@@ -7,7 +7,6 @@
 #include "resident.glsl"
 #include "project.glsl"
 
-layout(constant_id = constant_first_listed) const uint first_listed = 0u;
 layout(push_constant, scalar) uniform Push { Frame frame; };
 layout(set = 1, binding = binding_listed_texels) uniform utextureBuffer listed;
 layout(location = 0) out vec2 barycentrics;

@@ -4,6 +4,7 @@
 
 #include "compact.comp.spv.h"
 #include "cull.comp.spv.h"
+#include "gather/bindings.h"
 #include "gpu/commands.h"
 #include "scan.comp.spv.h"
 
@@ -11,12 +12,6 @@ namespace lw {
 namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
-
-std::vector<Binding> cull_bindings() {
-    constexpr auto texels = vk::DescriptorType::eUniformTexelBuffer;
-    return {Binding{binding_clusters, texels}, Binding{binding_survivors}, Binding{binding_draws},
-            Binding{binding_listed}, Binding{binding_listed_texels, texels, 1, vk::ShaderStageFlagBits::eVertex}};
-}
 
 Cluster make_cluster(const Scene& scene, uint first) {
     const auto count = uint(scene.triangles.size());
@@ -77,7 +72,7 @@ CullPass::CullPass(const Device& device, const Resident& resident, size_t culled
     : device_(&device),
       resident_(&resident),
       culls_(resident.triangle_count() >= std::max<size_t>(1, culled_from)),
-      descriptors_(device, cull_bindings()) {
+      descriptors_(device, bindings_of(BindingSet::cull)) {
     const auto [clusters, opaque] = find_clusters(resident.scene());
     const auto count = uint(clusters.size());
     blocks_ = blocks_per_cluster * count;
@@ -102,12 +97,12 @@ void CullPass::make_pipelines() {
     const Device& device = *device_;
     const vk::DescriptorSetLayout sets[] = {resident_->descriptors().layout(), descriptors_.layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(Frame));
-    ShaderConstants constants = resident_->constants();
-    constants[constant_first_listed] = first_see_through_;
-    constants[constant_pixel_margin] = floatBitsToUint(pixel_margin(device));
-    cull_ = make_compute_pipeline(device, *layout_, cull_comp, constants);
-    scan_ = make_compute_pipeline(device, *layout_, scan_comp, constants);
-    compact_ = make_compute_pipeline(device, *layout_, compact_comp, constants);
+    FrameConstants constants = resident_->constants();
+    constants.first_listed = first_see_through_;
+    constants.pixel_margin = pixel_margin(device);
+    cull_ = make_compute_pipeline(device, *layout_, cull_comp, listed(constants));
+    scan_ = make_compute_pipeline(device, *layout_, scan_comp, listed(constants));
+    compact_ = make_compute_pipeline(device, *layout_, compact_comp, listed(constants));
 }
 
 void CullPass::record(vk::CommandBuffer commands, const Frame& frame) const {

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "gather/bindings.h"
 #include "shaders/cull.h"
 #include "shaders/followed.h"
 #include "shaders/frame.h"
@@ -45,10 +46,19 @@ uint64_t photons_that_fit(const PhotonMap& map, uint64_t others, uint64_t budget
     return most / step * step;
 }
 
+/// Descriptors of a set that count as sampled images, which texel buffers do.
+uint32_t sampled_images(BindingSet set) {
+    uint32_t count = 0;
+    for (const Binding& b : bindings_of(set))
+        if (b.type == vk::DescriptorType::eUniformTexelBuffer || b.type == vk::DescriptorType::eSampledImage)
+            count += b.count;
+    return count;
+}
+
 }  // namespace
 
 void check_device(const Device& device, const Scene& scene, const PhotonMap& map, bool queries_rays) {
-    const uint32_t needed = texel_binding_count + 3 * (max_chunks - 1) + 1;
+    const uint32_t needed = sampled_images(BindingSet::scene) + sampled_images(BindingSet::picture);
     const uint32_t has = device.limits().maxPerStageDescriptorSampledImages;
     if (has < needed)
         throw Error(device.name() + ": binds " + std::to_string(has) + " textures, " + std::to_string(needed) +

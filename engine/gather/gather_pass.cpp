@@ -30,16 +30,15 @@ struct StagePipeline {
 
 }  // namespace
 
-ShaderConstants constants_for(const Resident& resident, const GatherSettings& settings) {
-    ShaderConstants constants = resident.constants();
-    constants[constant_gather_mode] = settings.mode;
-    constants[constant_heap_size] = settings.mode == 0 ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
+FrameConstants constants_for(const Resident& resident, const GatherSettings& settings) {
+    FrameConstants constants = resident.constants();
+    constants.gather_mode = settings.mode;
+    constants.heap_size = settings.mode == 0 ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
     // Without a lattice, as of a map without photons, only rays know what stands before a lamp.
-    constants[constant_has_shadow_rays] = settings.shadow_rays > 0 || !constants[constant_has_visible_lamps];
-    constants[constant_followed_roughness] = floatBitsToUint(followed_roughness(settings));
-    constants[constant_has_followed] =
-        settings.mode != gather_mode_inspect &&
-        (resident.min_lobe() < followed_roughness(settings) || constants[constant_looks_through]);
+    constants.has_shadow_rays = settings.shadow_rays > 0 || !constants.has_visible_lamps;
+    constants.followed_roughness = followed_roughness(settings);
+    constants.has_followed = settings.mode != gather_mode_inspect &&
+                             (resident.min_lobe() < followed_roughness(settings) || constants.looks_through);
     return constants;
 }
 
@@ -62,9 +61,9 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
         throw Error("gather: exact search takes at most " + std::to_string(PhotonEstimator::heap_size) + " neighbours");
     const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), picture.descriptors().layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(Frame));
-    const ShaderConstants constants = constants_for(resident, settings);
-    const bool has_rays = settings.mode != gather_mode_inspect && constants[constant_has_direct];
-    const bool follows = constants[constant_has_followed];
+    const FrameConstants constants = constants_for(resident, settings);
+    const bool has_rays = settings.mode != gather_mode_inspect && constants.has_direct;
+    const bool follows = constants.has_followed;
     if (has_rays || follows) sizes_ = make_compute_pipeline(device, *layout_, size_lists_comp, {});
     std::vector<StagePipeline> wanted{{&photons_, stage_photons, false}};
     if (has_rays) wanted.push_back({&rays_, stage_rays, false});
@@ -73,16 +72,16 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
     if (follows && has_rays) wanted.push_back({&followed_rays_, stage_rays, true});
     const SpirV code = resident.queries_rays() ? SpirV(gather_queries_comp) : SpirV(gather_comp);
     parallel_for(wanted.size(), [&](size_t i) {  // a tenth of a second each where the driver is slow
-        ShaderConstants own = constants;
-        own[constant_stage] = wanted[i].stage;
-        own[constant_of_followed] = wanted[i].of_followed;
-        *wanted[i].pipeline = make_compute_pipeline(device, *layout_, code, own);
+        FrameConstants own = constants;
+        own.stage = wanted[i].stage;
+        own.of_followed = wanted[i].of_followed;
+        *wanted[i].pipeline = make_compute_pipeline(device, *layout_, code, listed(own));
     });
     if (!follows) return;
     const bool follows_lobes = followed_roughness(settings) > std::sqrt(min_alpha);  // not mirrors and glass alone
     lobes_ = follows_lobes ? max_lobes : 1;
     has_branch_[branch_reflected] = resident.min_lobe() < followed_roughness(settings);
-    has_branch_[branch_through] = constants[constant_looks_through];
+    has_branch_[branch_through] = constants.looks_through;
 }
 
 void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps,

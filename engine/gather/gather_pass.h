@@ -7,7 +7,7 @@
 namespace lw {
 
 /// What the pipelines of a gather are compiled with: what the scene and the settings need.
-ShaderConstants constants_for(const Resident& resident, const GatherSettings& settings);
+FrameConstants constants_for(const Resident& resident, const GatherSettings& settings);
 
 /// The push constants of a view with what its passes need of the scene, its lamps at a setting, and the settings.
 Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps = 0);

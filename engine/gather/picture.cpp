@@ -1,21 +1,10 @@
 #include "gather/picture.h"
 
-#include <array>
-
 #include "base/error.h"
+#include "gather/bindings.h"
 
 namespace lw {
 namespace {
-
-std::array<Binding, 7> picture_bindings() {
-    return {Binding{binding_visibility, vk::DescriptorType::eSampledImage},
-            Binding{binding_radiance},
-            Binding{binding_ray_lists},
-            Binding{binding_ray_pixels},
-            Binding{binding_screen},
-            Binding{binding_light, vk::DescriptorType::eUniformTexelBuffer},
-            Binding{binding_followed}};
-}
 
 Buffer plane(const Device& device, vk::Extent2D size, size_t pixel_bytes, const std::string& what) {
     const uint64_t bytes = uint64_t(size.width) * size.height * pixel_bytes;
@@ -39,7 +28,7 @@ Picture::Picture(const Device& device, const Target& visibility, const Resident&
       screen_(plane(device, visibility.size(), 4, "screen")),
       followed_(plane(device, resident.may_follow() ? visibility.size() : vk::Extent2D{1, 1}, sizeof(Followed),
                       "ends of followed paths")),
-      descriptors_(device, picture_bindings()) {
+      descriptors_(device, bindings_of(BindingSet::picture)) {
     descriptors_.set_target(binding_visibility, visibility);
     descriptors_.set_buffer(binding_radiance, radiance_);
     descriptors_.set_buffer(binding_ray_lists, ray_lists_);

@@ -6,27 +6,16 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "gather/bindings.h"
 #include "gather/device_fit.h"
 
 namespace lw {
 namespace {
 
-uint descriptor_count(uint binding) {
-    return binding == binding_places || binding == binding_fluxes || binding == binding_directions ? max_chunks : 1u;
-}
-
+/// Without ray queries there is no acceleration structure.
 std::vector<Binding> scene_bindings(bool queries_rays) {
-    const vk::ShaderStageFlags compute = vk::ShaderStageFlagBits::eCompute;
-    const auto all = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | compute;
-    std::vector<Binding> bindings;
-    for (uint i = 0; i < scene_binding_count; ++i) {
-        const bool of_surfaces = i <= binding_texels || i == binding_materials || i == binding_textures;
-        const auto type =
-            i < texel_binding_count ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eStorageBuffer;
-        bindings.push_back({i, type, descriptor_count(i), of_surfaces ? vk::ShaderStageFlags(all) : compute});
-    }
-    if (queries_rays)
-        bindings.push_back({binding_acceleration, vk::DescriptorType::eAccelerationStructureKHR, 1, compute});
+    std::vector<Binding> bindings = bindings_of(BindingSet::scene);
+    if (!queries_rays) std::erase_if(bindings, [](const Binding& b) { return b.binding == binding_acceleration; });
     return bindings;
 }
 
@@ -76,9 +65,9 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     check_device(device, scene, map, queries_rays_);
     if (map.has_coverage()) cells_.emplace(scene, map);
     choose_constants(scene, map, bvh);
-    constants_[constant_has_direct] = !bvh.nodes.empty() && !map.settings.direct_in_photons;
-    constants_[constant_has_visible_lamps] = map.has_visible_lamps();
-    constants_[constant_has_coverage] = map.has_coverage();
+    constants_.has_direct = !bvh.nodes.empty() && !map.settings.direct_in_photons;
+    constants_.has_visible_lamps = map.has_visible_lamps();
+    constants_.has_coverage = map.has_coverage();
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
@@ -86,35 +75,33 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
 }
 
 void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh) {
-    constants_[constant_has_uv0] = !scene.uv0.empty();
-    constants_[constant_has_uv1] = !scene.uv1.empty();
-    constants_[constant_has_colors] = !scene.colors.empty();
-    constants_[constant_has_tangents] = !scene.tangents.empty();
-    constants_[constant_has_textures] = !scene.textures.empty();
-    constants_[constant_has_directions] = map.has_directions();
-    constants_[constant_has_alpha] = any_material(scene, material_alpha_mask | material_alpha_blend);
-    constants_[constant_has_transmission] = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                                        [](const Material& m) { return m.transmission > 0; });
+    constants_.has_uv0 = !scene.uv0.empty();
+    constants_.has_uv1 = !scene.uv1.empty();
+    constants_.has_colors = !scene.colors.empty();
+    constants_.has_tangents = !scene.tangents.empty();
+    constants_.has_textures = !scene.textures.empty();
+    constants_.has_directions = map.has_directions();
+    constants_.has_alpha = any_material(scene, material_alpha_mask | material_alpha_blend);
+    constants_.has_transmission = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                              [](const Material& m) { return m.transmission > 0; });
     const bool can_follow = !bvh.nodes.empty();
     min_lobe_ = can_follow ? min_roughness(scene) : 1.0f;
-    constants_[constant_looks_through] =
-        can_follow && (constants_[constant_has_transmission] || any_material(scene, material_alpha_blend));
-    constants_[constant_has_caustics] = map.caustic_grids > 0;
-    constants_[constant_first_caustic_map] = uint(map.grids.size()) - map.caustic_grids;
-    constants_[constant_first_cut] = map.first_cut(0, constants_[constant_first_caustic_map]);
-    constants_[constant_first_caustic_cut] =
-        map.first_cut(constants_[constant_first_caustic_map], uint(map.grids.size()));
-    constants_[constant_has_smooth_caustics] = !map.smooth_caustics.empty();
-    constants_[constant_has_shadow_masks] = !map.shadow_masks.empty();
-    constants_[constant_has_mesh_lamps] = !scene.emitters.empty();
-    constants_[constant_has_profiles] = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                                    [](const Light& light) { return light.type == light_profile; });
-    constants_[constant_has_metallic_roughness_textures] = any_texture(scene, &Material::metallic_roughness_texture);
-    constants_[constant_has_emissive_textures] = any_texture(scene, &Material::emissive_texture);
-    constants_[constant_has_transmission_textures] = any_texture(scene, &Material::transmission_texture);
-    constants_[constant_chunk_shift] = std::min(27u, uint(std::bit_width(max_texels_)) - 1u);
-    constants_[constant_chunks] = chunk_count(map.places.size(), constants_[constant_chunk_shift]);
-    constants_[constant_heap_size] = 1;
+    constants_.looks_through = can_follow && (constants_.has_transmission || any_material(scene, material_alpha_blend));
+    constants_.has_caustics = map.caustic_grids > 0;
+    constants_.first_caustic_map = uint(map.grids.size()) - map.caustic_grids;
+    constants_.first_cut = map.first_cut(0, constants_.first_caustic_map);
+    constants_.first_caustic_cut = map.first_cut(constants_.first_caustic_map, uint(map.grids.size()));
+    constants_.has_smooth_caustics = !map.smooth_caustics.empty();
+    constants_.has_shadow_masks = !map.shadow_masks.empty();
+    constants_.has_mesh_lamps = !scene.emitters.empty();
+    constants_.has_profiles = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                          [](const Light& light) { return light.type == light_profile; });
+    constants_.has_metallic_roughness_textures = any_texture(scene, &Material::metallic_roughness_texture);
+    constants_.has_emissive_textures = any_texture(scene, &Material::emissive_texture);
+    constants_.has_transmission_textures = any_texture(scene, &Material::transmission_texture);
+    constants_.chunk_shift = std::min(27u, uint(std::bit_width(max_texels_)) - 1u);
+    constants_.chunks = chunk_count(map.places.size(), constants_.chunk_shift);
+    constants_.heap_size = 1;
 }
 
 /// Each record in so many texels of four words.
@@ -209,7 +196,7 @@ std::vector<uint> Resident::queried(const Bvh& bvh) {
     corners.reserve(entries.size());
     for (uint entry : entries) corners.push_back(scene_->triangles[entry & ~bvh_see_through]);
     const auto opaque = size_t(others - entries.begin());
-    constants_[constant_first_see_through] = opaque < entries.size() ? uint(opaque) : no_map;
+    constants_.first_see_through = opaque < entries.size() ? uint(opaque) : no_map;
     acceleration_.emplace(*device_, TracedTriangles{scene_->positions, corners, opaque});
     for (const DescriptorSet& set : descriptors_) set.set_acceleration(binding_acceleration, acceleration_->handle());
     return entries;
@@ -253,7 +240,7 @@ void Resident::upload_texels(uint binding, vk::Format format, std::span<const T>
 
 template <class T>
 void Resident::upload_chunks(uint binding, vk::Format format, std::span<const T> values, const std::string& what) {
-    const uint shift = constants_[constant_chunk_shift], count = chunk_count(values.size(), shift);
+    const uint shift = constants_.chunk_shift, count = chunk_count(values.size(), shift);
     const size_t chunk = size_t(1) << shift;
     if (count > max_chunks)
         throw Error(device_->name() + ": " + std::to_string(values.size()) + " " + what + " do not fit, at most " +

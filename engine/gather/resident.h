@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "gather/constants.h"
 #include "gpu/acceleration.h"
 #include "gpu/pipeline.h"
 #include "maps/cells.h"
@@ -14,8 +15,6 @@
 #include "shaders/frame.h"
 
 namespace lw {
-
-using ShaderConstants = std::array<uint32_t, constant_count>;
 
 struct ResidentSettings {
     uint64_t texels = 0;  // most records of one buffer; 0: what the device allows. For tests of the splitting.
@@ -41,11 +40,11 @@ class Resident {
     const Scene& scene() const { return *scene_; }
     const DescriptorSet& descriptors(uint setting = 0) const { return descriptors_[setting]; }
     /// Specialization constants of the scene; those of the gather are left to the pass.
-    const ShaderConstants& constants() const { return constants_; }
+    const FrameConstants& constants() const { return constants_; }
     /// The least roughness of a surface whose lobe could be followed by rays; 1: there is none.
     float min_lobe() const { return min_lobe_; }
     /// True when view paths may go on from what the eye sees.
-    bool may_follow() const { return min_lobe_ < 1 || constants_[constant_looks_through]; }
+    bool may_follow() const { return min_lobe_ < 1 || constants_.looks_through; }
     /// True when rays are traced by the device's ray queries.
     bool queries_rays() const { return queries_rays_; }
     uint triangle_count() const { return triangle_count_; }
@@ -84,7 +83,7 @@ class Resident {
     const Scene* scene_;
     const PhotonMap* map_;
     uint64_t max_texels_;
-    ShaderConstants constants_{};
+    FrameConstants constants_;
     uint triangle_count_;
     float max_radius_;
     float inverse_flux_scale_;

@@ -1,5 +1,7 @@
 #include "gather/view_pass.h"
 
+#include "gather/bindings.h"
+#include "gather/constants.h"
 #include "gpu/commands.h"
 #include "view.comp.spv.h"
 
@@ -7,13 +9,6 @@ namespace lw {
 namespace {
 
 constexpr size_t readback_bytes = size_t(readback_columns) * readback_rows * sizeof(ReadbackPixel);
-
-std::vector<Binding> view_bindings() {
-    return {Binding{binding_view_light, vk::DescriptorType::eUniformTexelBuffer},
-            Binding{binding_view_other, vk::DescriptorType::eUniformTexelBuffer},
-            Binding{binding_view_visibility, vk::DescriptorType::eSampledImage}, Binding{binding_view_screen},
-            Binding{binding_view_readback}};
-}
 
 }  // namespace
 
@@ -23,7 +18,7 @@ ViewPass::ViewPass(const Device& device, const Target& visibility, const Picture
                                       "readback")),
       read_back_{Buffer(device, readback_bytes, "readback", Buffer::Place::host),
                  Buffer(device, readback_bytes, "readback", Buffer::Place::host)},
-      descriptors_(device, view_bindings()) {
+      descriptors_(device, bindings_of(BindingSet::view)) {
     for (const Buffer& buffer : read_back_) std::fill_n(static_cast<char*>(buffer.mapped()), readback_bytes, char(0));
     descriptors_.set_texels(binding_view_light, a.light());
     descriptors_.set_texels(binding_view_other, b.light());
@@ -37,14 +32,14 @@ ViewPass::ViewPass(const Device& device, const Target& visibility, const Picture
 vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled, bool is_readback) {
     vk::UniquePipeline& pipeline = pipelines_[{kind, is_scaled, is_readback}];
     if (!pipeline) {
-        std::array<uint, view_constant_count> constants{};
-        constants[constant_view] = kind.view;
-        constants[constant_curve] = kind.curve;
-        constants[constant_has_lines] = kind.has_lines;
-        constants[constant_has_split] = kind.has_split && !is_inspection(kind.view) && !is_signed_view(kind.view);
-        constants[constant_is_scaled] = is_scaled;
-        constants[constant_is_readback] = is_readback;
-        pipeline = make_compute_pipeline(*device_, *layout_, view_comp, constants);
+        ViewConstants constants;
+        constants.shown_view = kind.view;
+        constants.shown_curve = kind.curve;
+        constants.has_lines = kind.has_lines;
+        constants.has_split = kind.has_split && !is_inspection(kind.view) && !is_signed_view(kind.view);
+        constants.is_scaled = is_scaled;
+        constants.is_readback = is_readback;
+        pipeline = make_compute_pipeline(*device_, *layout_, view_comp, listed(constants));
     }
     return *pipeline;
 }

@@ -26,11 +26,11 @@ VisibilityPass::VisibilityPass(const Device& device, const Resident& resident, v
     const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), cull_.descriptors().layout()};
     layout_ = make_layout(device, sets, both_stages, sizeof(Frame));
     for (const bool see_through : {false, true}) {
-        ShaderConstants constants = resident.constants();
-        constants[constant_first_listed] = cull_.first_listed(see_through);
-        if (!see_through) constants[constant_has_alpha] = constants[constant_has_transmission] = 0;
-        pipelines_[see_through] = make_raster_pipeline(device, *layout_, {visibility_vert, visibility_frag}, constants,
-                                                       visible_.format(), depth_.format());
+        FrameConstants constants = resident.constants();
+        constants.first_listed = cull_.first_listed(see_through);
+        if (!see_through) constants.has_alpha = constants.has_transmission = false;
+        pipelines_[see_through] = make_raster_pipeline(device, *layout_, {visibility_vert, visibility_frag},
+                                                       listed(constants), visible_.format(), depth_.format());
     }
 }
 

@@ -6,7 +6,7 @@
 namespace lw {
 namespace {
 
-vk::UniqueShaderModule make_module(const Device& device, SpirV code, Constants constants) {
+vk::UniqueShaderModule make_module(const Device& device, SpirV code, SpecConstants constants) {
     const std::vector<uint32_t> specialized = specialize(code, constants);
     return device.handle().createShaderModuleUnique({{}, specialized.size() * sizeof(uint32_t), specialized.data()});
 }
@@ -60,7 +60,7 @@ vk::UniquePipelineLayout make_layout(const Device& device, std::span<const vk::D
 }
 
 vk::UniquePipeline make_compute_pipeline(const Device& device, vk::PipelineLayout layout, SpirV code,
-                                         Constants constants) {
+                                         SpecConstants constants) {
     const vk::UniqueShaderModule shader = make_module(device, code, constants);
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main");
     return device.handle()
@@ -69,7 +69,7 @@ vk::UniquePipeline make_compute_pipeline(const Device& device, vk::PipelineLayou
 }
 
 vk::UniquePipeline make_raster_pipeline(const Device& device, vk::PipelineLayout layout, RasterShaders code,
-                                        Constants constants, vk::Format color, vk::Format depth) {
+                                        SpecConstants constants, vk::Format color, vk::Format depth) {
     const vk::UniqueShaderModule vertex = make_module(device, code.vertex, constants);
     const vk::UniqueShaderModule fragment = make_module(device, code.fragment, constants);
     const std::array stages{

@@ -1,4 +1,4 @@
-// Pipelines and the descriptor sets they read. Specialization constants are a list: entry i is constant_id i.
+// Pipelines and the descriptor sets they read.
 #pragma once
 #include <span>
 
@@ -40,7 +40,7 @@ vk::UniquePipelineLayout make_layout(const Device& device, std::span<const vk::D
                                      vk::ShaderStageFlags stages, uint32_t push_bytes);
 
 vk::UniquePipeline make_compute_pipeline(const Device& device, vk::PipelineLayout layout, SpirV code,
-                                         Constants constants);
+                                         SpecConstants constants);
 
 struct RasterShaders {
     SpirV vertex;
@@ -50,6 +50,6 @@ struct RasterShaders {
 /// Triangles without vertex buffers, no culling, no blending, depth test `greater` (reversed depth).
 /// Viewport and scissor are dynamic.
 vk::UniquePipeline make_raster_pipeline(const Device& device, vk::PipelineLayout layout, RasterShaders code,
-                                        Constants constants, vk::Format color, vk::Format depth);
+                                        SpecConstants constants, vk::Format color, vk::Format depth);
 
 }  // namespace lw

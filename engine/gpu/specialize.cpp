@@ -6,9 +6,9 @@
 
 namespace lw {
 
-std::vector<uint32_t> specialize(SpirV code, Constants constants) {
+std::vector<uint32_t> specialize(SpirV code, SpecConstants constants) {
     std::unordered_map<uint32_t, std::vector<uint32_t>> values;
-    for (uint32_t i = 0; i < constants.size(); ++i) values[i] = {constants[i]};
+    for (const SpecConstant& c : constants) values[c.id] = {c.bits};
     spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_3);
     optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
         .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())

@@ -67,7 +67,7 @@ constexpr const char* shader = R"(
 )";
 
 /// The shader above for these constants, as text.
-std::string specialized(std::vector<uint32_t> constants) {
+std::string specialized(std::vector<SpecConstant> constants) {
     const spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
     std::vector<uint32_t> code;
     EXPECT_TRUE(tools.Assemble(shader, &code));
@@ -81,12 +81,12 @@ std::string specialized(std::vector<uint32_t> constants) {
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Specialize, LeavesWhatTheConstantsCallAndNoMore) {
-    const std::string with = specialized({1, std::bit_cast<uint32_t>(0.25f)});
+    const std::string with = specialized({{0, 1}, {1, std::bit_cast<uint32_t>(0.25f)}});
     EXPECT_TRUE(contains(with, "OpFunctionCall %float %chosen"));
     EXPECT_FALSE(contains(with, "%other"));
     EXPECT_TRUE(contains(with, "OpConstant %float 0.25"));
     EXPECT_FALSE(contains(with, "OpSpecConstant"));
-    const std::string without = specialized({0, std::bit_cast<uint32_t>(-3.0f)});
+    const std::string without = specialized({{0, 0}, {1, std::bit_cast<uint32_t>(-3.0f)}, {7, 5}});
     EXPECT_TRUE(contains(without, "OpFunctionCall %float %other"));
     EXPECT_FALSE(contains(without, "%chosen"));
     EXPECT_TRUE(contains(without, "OpConstant %float -3"));

@@ -77,7 +77,7 @@ class CaseOnDevice {
     TimedFrame render(const Camera& camera, FrameSize frame, const GatherSettings& gather) const;
     uint64_t bytes() const { return resident_->bytes(); }
     /// What the shaders of a gather are compiled with.
-    ShaderConstants constants(const GatherSettings& gather) const { return constants_for(*resident_, gather); }
+    FrameConstants constants(const GatherSettings& gather) const { return constants_for(*resident_, gather); }
     uint64_t ray_bytes() const { return resident_->ray_bytes(); }
 
   private:

@@ -22,24 +22,24 @@ constexpr Variant variants[] = {{"Lambert, one panel", 1, Lamps::panels, Finish:
                                 {"sculptures of glass, one panel", 1, Lamps::panels, Finish::glass}};
 
 struct Constant {
-    uint place;
+    bool FrameConstants::*member;
     const char* name;
 };
 
 /// Specialization constants of what a scene may need.
 constexpr Constant constants[] = {
-    {constant_has_uv0, "texture coordinates"},   {constant_has_textures, "textures"},
-    {constant_has_directions, "directions"},     {constant_has_transmission, "glass"},
-    {constant_has_caustics, "caustics"},         {constant_has_followed, "followed lobes"},
-    {constant_has_mesh_lamps, "glowing meshes"}, {constant_has_visible_lamps, "visible lamps"},
-    {constant_has_shadow_masks, "shadow masks"}, {constant_has_shadow_rays, "shadow rays"}};
+    {&FrameConstants::has_uv0, "texture coordinates"},   {&FrameConstants::has_textures, "textures"},
+    {&FrameConstants::has_directions, "directions"},     {&FrameConstants::has_transmission, "glass"},
+    {&FrameConstants::has_caustics, "caustics"},         {&FrameConstants::has_followed, "followed lobes"},
+    {&FrameConstants::has_mesh_lamps, "glowing meshes"}, {&FrameConstants::has_visible_lamps, "visible lamps"},
+    {&FrameConstants::has_shadow_masks, "shadow masks"}, {&FrameConstants::has_shadow_rays, "shadow rays"}};
 
 /// What the shader of a scene is compiled with.
 std::string variant_of(const CaseOnDevice& on_device) {
-    const ShaderConstants values = on_device.constants(default_gather());
+    const FrameConstants values = on_device.constants(default_gather());
     std::string names;
     for (const Constant& c : constants)
-        if (values[c.place]) names += (names.empty() ? "" : ", ") + std::string(c.name);
+        if (values.*c.member) names += (names.empty() ? "" : ", ") + std::string(c.name);
     return names;
 }
 

@@ -1,0 +1,27 @@
+// The specialization constants of the shaders as structs whose members are the rows of the shaders' tables
+// (shaders/frame_constants.h, shaders/view_constants.h).
+#pragma once
+#include <vector>
+
+#include "gpu/specialize.h"
+#include "shaders/frame.h"
+#include "shaders/view.h"
+
+namespace lw {
+
+#define LW_CONSTANT(type, name, value) type name = value;
+/// Of culling, visibility and gather. Members not set have the shader's own default.
+struct FrameConstants {
+#include "shaders/frame_constants.h"
+};
+/// Of the view pass.
+struct ViewConstants {
+#include "shaders/view_constants.h"
+};
+#undef LW_CONSTANT
+
+/// The members with their ids, as pipelines take them.
+std::vector<SpecConstant> listed(const FrameConstants& constants);
+std::vector<SpecConstant> listed(const ViewConstants& constants);
+
+}  // namespace lw
