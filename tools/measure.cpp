@@ -12,15 +12,14 @@
 #include "base/progress.h"
 #include "base/replaced_file.h"
 #include "file/map_file.h"
+#include "maps/bake.h"
 #include "maps/bake_memory.h"
-#include "maps/build.h"
 #include "measure/grid.h"
 #include "measure/reflections.h"
 #include "measure/report.h"
 #include "measure/survey.h"
 #include "measure/table.h"
 #include "number_option.h"
-#include "photons/shoot.h"
 #include "scene/camera.h"
 #include "scene/profile.h"
 #include "scene/recorded_path.h"
@@ -63,8 +62,7 @@ lw::PhotonMap map_of(const Options& o, const lw::Scene& scene, const lw::RayCast
     lw::BakeSettings settings;
     settings.photons = o.photons > 0 ? o.photons : photons_to_start_with;
     lw::check_bake_fits(scene, settings, lw::available_memory());
-    return lw::build_photon_map(scene, caster, lw::shoot_photons(scene, caster, {settings.photons, settings.seed}),
-                                settings);
+    return lw::bake(scene, caster, settings);
 }
 
 /// Refuses a second set of results that could not be told from the first.
