@@ -31,23 +31,27 @@ struct LampBook {
     std::map<std::string, std::string> photometry;           // lamp -> file, relative to the folder of the scene
 };
 
-/// SCENE.glb -> SCENE.ambiances.json.
+/// The default file of a scene's ambiances: SCENE.ambiances.json beside SCENE.glb.
 std::filesystem::path default_ambiances_path(const std::filesystem::path& scene);
 
-/// Empty when there is no such file. Throws Error naming file, ambiance and lamp for anything malformed.
+/// Reads the file; the book is empty when there is no such file. Throws Error naming file, ambiance and lamp for
+/// anything malformed.
 LampBook load_lamp_book(const std::filesystem::path& path);
 
-/// Throws Error naming the file when it cannot be written.
+/// Writes the book as JSON. Throws Error naming the file when it cannot be written.
 void save_lamp_book(const std::filesystem::path& path, const LampBook& book);
 
-/// What the setting of a lamp of this intensity multiplies it by, by colour. Throws Error as filter_to_temperature().
+/// The factor, per RGB channel, by which a setting multiplies the intensity of a lamp. `intensity` is the lamp's own,
+/// needed for the colour of a temperature. Throws Error as filter_to_temperature().
 vec3 factor_of(const LampSetting& setting, vec3 intensity);
 
-/// One factor per lamp of the scene and channel. Throws Error naming a lamp that the scene does not have.
+/// The factors of an ambiance: one RGB per lamp of the scene, 1 for lamps it does not name. Throws Error naming a lamp
+/// that the scene does not have.
 std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance);
 
-/// Factors of the ambiance called `name` of the scene's file (none when empty) times those of "LAMP=FACTOR" texts.
-/// Throws Error listing the ambiances, or as light_factors() and parse_powers().
+/// The factors that a command line asks for, one RGB per lamp: those of the ambiance `name` from the scene's default
+/// file (all 1 when `name` is empty), times those of the "LAMP=FACTOR" texts `powers`. Throws Error listing the
+/// ambiances when there is none of this name, or as light_factors() and parse_powers().
 std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, const std::vector<std::string>& powers);
 
 }  // namespace lw
