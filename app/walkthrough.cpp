@@ -21,7 +21,7 @@ void refuse_validation_messages(const Device& device) {
         throw Error("Vulkan validation: " + std::to_string(messages.size()) + " messages, first: " + messages[0]);
 }
 
-/// Takes a finished map, and tells what went wrong.
+/// Takes a finished map from the bake, if there is one, and shows its errors to the user.
 void follow_baking(Baking& baking, Session& session, SharedMap& map, Viewer& show) {
     if (std::optional<PhotonMap> ready = baking.take()) {
         map = std::make_shared<const PhotonMap>(std::move(*ready));
@@ -32,7 +32,7 @@ void follow_baking(Baking& baking, Session& session, SharedMap& map, Viewer& sho
     if (!message.empty()) tell(session, message, 10);
 }
 
-/// Reads calculation grids from the map, and tells what went wrong.
+/// Lets the reader go on with calculation grids, and shows its errors to the user.
 void follow_fields(FieldReader& reader, Session& session, const SharedMap& map) {
     try {
         if (!reader.follow(session.fields, map)) return;
@@ -43,7 +43,7 @@ void follow_fields(FieldReader& reader, Session& session, const SharedMap& map) 
     }
 }
 
-/// The work that goes on behind the window.
+/// The map, and the threads that bake it and read grids from it while the window is open.
 struct Work {
     SharedMap map;
     std::unique_ptr<Baking> baking;
@@ -55,7 +55,7 @@ struct Work {
     }
 };
 
-/// Runs on one device until the window closes or the scene is to be loaded anew.
+/// Shows frames on one device until the window closes or the scene must be loaded again.
 void run(Window& window, const WalkthroughSettings& settings, Session& session, Work& work) {
     Viewer show(window, session, settings.device, settings.vsync);
     if (work.map) show.set_map(work.map);
@@ -67,7 +67,7 @@ void run(Window& window, const WalkthroughSettings& settings, Session& session, 
     refuse_validation_messages(show.device());
 }
 
-/// Runs until the window closes or the scene is to be loaded anew; on a new device when one is lost.
+/// Shows frames until the window closes or the scene must be loaded again. Starts a new device when one is lost.
 void run_on_devices(Window& window, const WalkthroughSettings& settings, Session& session, Work& work) {
     double lost = -1e9;
     while (!window.closes() && !session.reload) {
@@ -106,7 +106,8 @@ LampBook book_beside(const std::filesystem::path& scene) {
     }
 }
 
-/// The scene with the photometric files of its book; without them, which is told, when something is wrong with these.
+/// Loads the scene with the photometric files of its book. When one of them is wrong, the user is told and the scene is
+/// loaded without them.
 std::unique_ptr<World> load_world(const WalkthroughSettings& settings, const LampBook& book) {
     try {
         return std::make_unique<World>(settings.scene, photometry_texts(book, settings.scene, settings.photometry));
@@ -118,7 +119,7 @@ std::unique_ptr<World> load_world(const WalkthroughSettings& settings, const Lam
     }
 }
 
-/// The map beside the scene, or one that is baked while the user walks.
+/// Loads the map beside the scene, or starts to bake one.
 void find_map(const WalkthroughSettings& settings, Session& session, Work& work) {
     const World& world = session.world;
     std::string reason;
@@ -129,7 +130,7 @@ void find_map(const WalkthroughSettings& settings, Session& session, Work& work)
         std::make_unique<Baking>(world.scene, world.caster, Baking::Settings{100'000, settings.photons, settings.map});
 }
 
-/// Walks until the window closes or the scene is to be loaded anew.
+/// Walks in one loaded scene until the window closes or the scene must be loaded again.
 void walk_in_world(Window& window, const WalkthroughSettings& settings, Session& session) {
     Work work{nullptr, nullptr, {session.world.scene, session.world.caster}};
     find_map(settings, session, work);

@@ -16,8 +16,8 @@
 namespace lw {
 namespace {
 
-constexpr double idle_seconds = 0.1;             // between frames when nothing changes
-constexpr double sharpens_after_seconds = 0.25;  // a pause between two steps is still motion
+constexpr double idle_seconds = 0.1;             // wait between frames when nothing changes
+constexpr double sharpens_after_seconds = 0.25;  // a shorter pause between two steps still counts as motion
 constexpr double minimised_seconds = 0.2;
 
 DeviceSettings with_window(DeviceSettings settings) {
@@ -58,10 +58,10 @@ void Viewer::frame(const BakingState& baking) {
     const Events events = window_.poll(window_.size().width == 0 ? minimised_seconds : idle ? idle_seconds : 0);
     const double now = Window::now();
     seconds_ = float(now - last_);
-    const float seconds = idle ? std::min(seconds_, 0.05f) : seconds_;  // a step after a rest is no leap
+    const float seconds = idle ? std::min(seconds_, 0.05f) : seconds_;  // no leap after a rest
     last_ = now;
     const std::optional<OpenFrame> open = presenter_.begin();
-    if (open) begin_panels();  // before input is taken: they tell what is theirs of it
+    if (open) begin_panels();  // before input is taken: the panels say which of it they use
     take_input(events, seconds);
     if (!open) return;
     present(*open, baking, now);
@@ -77,7 +77,7 @@ void Viewer::take_input(const Events& events, float seconds) {
     measure();
 }
 
-/// Measures again when the view, the lamps or the map have changed.
+/// Measures probe and pins again when the view, the lamps or the map have changed.
 void Viewer::measure() {
     if (!renderer_) return;
     const Camera camera = camera_of(session_.walker, session_.yfov, session_.near);
@@ -124,7 +124,7 @@ void Viewer::present(const OpenFrame& open, const BakingState& baking, double no
     if (wish != PictureRequest::none) keep_screenshot();
 }
 
-/// What the frame before the last tells: times, exposure, range.
+/// Takes times, exposure and range of false colours from the last finished frame of this slot.
 void Viewer::follow_picture(uint slot) {
     renderer_->resize(presenter_.swapchain().size());
     session_.statistics.times = renderer_->times(slot);
@@ -144,7 +144,7 @@ void Viewer::record_stage(const OpenFrame& open) {
                       open.slot);
 }
 
-/// Once for each picture that stands still.
+/// Estimates the error of a still picture, once for each.
 void Viewer::estimate_error(const FrameRequest& request, uint slot) {
     std::optional<vec2>& error = session_.statistics.error;
     if (!renderer_->is_finished(request))

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double recorded_per_second = 10;
 
-/// Loads with `load`; what is wrong is told and remembered, so that the file is not overwritten.
+/// Calls `load`. An error is shown to the user and kept in `trouble`, so that the file is not overwritten later.
 template <class Value, class Load>
 Value loaded_or_empty(const Load& load, std::string& trouble) {
     try {

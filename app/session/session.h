@@ -1,5 +1,4 @@
-// All that the user can change, as plain values: where they stand, the lamps, what is shown. Panels and keys write it,
-// the frame reads it.
+// All that the user can change: place, lamps, what is shown and measured. Panels and keys write it, the frame reads it.
 #pragma once
 #include <optional>
 
@@ -20,13 +19,13 @@ struct Fade {
 
 struct Lighting {
     LampBoard board;
-    std::optional<Fade> fade;  // from what was lit before to the board
+    std::optional<Fade> fade;  // from the factors before to those of the board
     float fade_seconds = 1;
     int selected = -1;     // lamp
-    int scrolled_to = -1;  // lamp that the panel has scrolled into view
+    int scrolled_to = -1;  // lamp that the panel has last scrolled into view, or -1
     std::string search;
     LampBook book;
-    std::string book_trouble;  // why the file beside the scene must not be overwritten, or ""
+    std::string book_trouble;  // why the file beside the scene could not be read and must not be overwritten, or ""
     std::string current;       // ambiance chosen last
 };
 
@@ -46,12 +45,12 @@ struct Viewing {
     float low = 0, high = 500;
     GatherSettings gather;
     uint max_samples = 256;
-    uint divisor = 0;          // of the resolution while moving; 0: by the time a frame takes
-    bool wants_error = false;  // to be told the estimated error while the view is still
-    bool reflections = false;  // outlines of bright reflections of lamps
+    uint divisor = 0;          // of width and height in motion; 0: chosen from the frame time
+    bool wants_error = false;  // estimate the error of the picture when the view is still
+    bool reflections = false;  // outline bright reflections of lamps
 };
 
-/// A measured place that is kept.
+/// A point that was measured and is kept.
 struct Pin {
     Hit hit;
     vec3 viewer;
@@ -64,10 +63,10 @@ struct Metering {
     std::vector<Pin> pins;
 };
 
-/// What is to be done with the next picture.
+/// What to do with the next picture.
 enum class PictureRequest { none, save, copy };
 
-/// A line told to the user for a few seconds.
+/// A message that the user sees for a few seconds.
 struct Notice {
     std::string text;
     double until = 0;  // s, Window::now()
@@ -75,7 +74,7 @@ struct Notice {
 
 struct FrameStatistics {
     RendererTimes times;
-    double frame_ms = 0;   // from one image to the next, averaged
+    double frame_ms = 0;   // time between images, averaged
     uint64_t photons = 0;  // stored in the map
     uint64_t device_bytes = 0;
     uint samples = 0;
@@ -84,7 +83,7 @@ struct FrameStatistics {
 
 struct Session {
     Session(const World& world, std::filesystem::path output);
-    /// The same session in the same building with other lamps.
+    /// Continues a session in the same building after it was loaded again with other lamps.
     Session(const World& world, const Session& before);
 
     const World& world;
@@ -93,9 +92,9 @@ struct Session {
     Walker walker;
     float yfov, near;
     std::optional<ViewTransition> transition;
-    int place = 0;  // jumped to last
+    int place = 0;  // index of the place flown to last
     std::vector<Bookmark> bookmarks;
-    std::string bookmarks_trouble;  // as book_trouble
+    std::string bookmarks_trouble;  // why the file of bookmarks must not be overwritten, or ""
     std::optional<Path> recording;
     double recorded_seconds = 0;
     Lighting lighting;
@@ -105,40 +104,41 @@ struct Session {
     Fields fields;
     bool panels = true, keys = false, full_screen = false;
     PictureRequest picture_request = PictureRequest::none;
-    bool reload = false;  // lamps have got other photometric files: the scene is loaded and baked anew
+    bool reload = false;  // lamps have other photometric files now: the scene must be loaded and baked again
     Notice notice;
     FrameStatistics statistics;
 };
 
-/// Shows a line for a while.
+/// Shows a message for some seconds.
 void tell(Session& session, const std::string& text, double seconds = 5);
 
-/// What the lamps are multiplied by now, crossfade included.
+/// The RGB factors of the lamps at this moment of a crossfade.
 std::vector<vec3> factors_now(const Lighting& lighting);
 
-/// Lights the board, fading from what is lit now.
+/// Makes `board` the current one, with a crossfade from the factors of this moment.
 void fade_to(Lighting& lighting, const LampBoard& board);
 
-/// Keeps ambiances, groups and photometric files beside the scene; tells that `what` is saved, or why not.
+/// Writes ambiances, groups and photometric files to the file beside the scene. Tells the user that `what` is saved, or
+/// why it is not.
 void save_book(Session& session, const std::string& what);
 
 /// Puts a photometric file (relative to the scene's folder) on a point or spot lamp, or takes it off (""); keeps that
 /// beside the scene and asks for the scene to be loaded anew. Tells what is wrong with a file.
 void attach_file(Session& session, size_t lamp, const std::string& file);
 
-/// Flies to place `index`: the cameras of the scene, then the bookmarks. False when there is none.
+/// Flies to place `index`, counted over the cameras of the scene, then the bookmarks. Returns false when there is none.
 bool fly_to(Session& session, size_t index);
 
-/// Keeps the view as a bookmark beside the scene.
+/// Adds the current view to the bookmarks and saves them beside the scene.
 void add_bookmark(Session& session);
 
 /// Starts recording the walk, or ends and saves it.
 void toggle_recording(Session& session);
 
-/// Moves on by `seconds`: transition or walk, crossfade, recording.
+/// Advances the session by `seconds`: transition or walk, crossfade, recording.
 void advance(Session& session, const WalkInput& input, float seconds);
 
-/// What the frame shows.
+/// The request and the display settings of the next frame.
 FrameRequest frame_request_of(const Session& session, uint divisor);
 DisplaySettings display_settings_of(const Session& session, bool bgr);
 

@@ -76,10 +76,9 @@ uint64_t checksum_of(const Header& header, const PhotonMap& map) {
     throw Error(path.string() + ": " + what + "; bake the map again");
 }
 
-constexpr float max_metres = 1e10f;  // beyond it, shaders may compute infinities or NaN from a position
-constexpr float max_cells = 512;     // most cells across a search radius: the exact gather visits rings of them
-constexpr float farthest_cell =
-    1e8f;  // most cells from the corner of a grid to a point of the scene: shaders count them in ints
+constexpr float max_metres = 1e10f;     // beyond it, shaders may compute infinities or NaN from a position
+constexpr float max_cells = 512;        // most cells across a search radius: the exact gather visits rings of them
+constexpr float farthest_cell = 1e8f;   // from a grid's corner to a point of the scene: shaders count cells in ints
 constexpr uint max_columns = 1u << 23;  // and rows: the shaders count them in floats
 
 bool is_place(float metres) { return std::abs(metres) < max_metres; }
@@ -258,8 +257,7 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
         throw Error(path.string() + ": the scene " + scene.path.filename().string() +
                     " has changed since this map was baked, or the map is of another scene; bake it again");
 
-    constexpr uint64_t always_there = uint64_t(256)
-                                      << 20;  // bytes of a file that is read without asking for the available memory
+    constexpr uint64_t always_there = uint64_t(256) << 20;  // bytes read without a look at the available memory
     if (file_size > always_there && file_size > available_memory())
         throw Error(path.string() + ": the map takes " + bytes_text(file_size) + " of memory, there are " +
                     bytes_text(available_memory()));

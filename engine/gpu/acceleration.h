@@ -11,9 +11,8 @@ namespace lw {
 /// For each triangle of geometry 1 that a ray meets, the shader decides, and is asked only once.
 struct TracedTriangles {
     std::span<const glm::vec3> positions;
-    std::span<const glm::uvec3>
-        corners;        // three indices into `positions` per triangle, geometry 0 first; at least one triangle
-    size_t opaque = 0;  // triangles of geometry 0
+    std::span<const glm::uvec3> corners;  // indices into `positions`, per triangle, geometry 0 first; at least one
+    size_t opaque = 0;                    // triangles of geometry 0
 };
 
 class Acceleration {

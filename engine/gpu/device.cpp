@@ -217,8 +217,7 @@ void Device::create_device(bool presents, bool ray_queries) {
     chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2 = true;
-    chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4 =
-        true;  // glslang writes the sizes of work groups as LocalSizeId, which needs it
+    chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4 = true;  // glslang writes LocalSizeId, which needs it
     device_ = physical_.createDeviceUnique(chain.get<vk::DeviceCreateInfo>());
     if (ray_queries) ray_functions_.emplace(*instance_, vkGetInstanceProcAddr, *device_, vkGetDeviceProcAddr);
     queue_ = device_->getQueue(queue_family_, 0);

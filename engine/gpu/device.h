@@ -25,8 +25,7 @@ inline constexpr const char* rays_help =
 Rays rays_named(const std::string& name);
 
 struct DeviceSettings {
-    std::string name;  // part of the device's name, in any case; empty: the first discrete GPU, else an integrated one,
-                       // else a CPU
+    std::string name;  // part of the device's name, any case; empty: a discrete GPU, else an integrated one, else a CPU
     bool validation = false;  // Khronos validation layer with synchronization checks
     std::vector<std::string>
         window_extensions{};          // of the instance; when there are any, the device must be able to present

@@ -18,9 +18,8 @@ constexpr float border_within = 1e-2f;        // m
 constexpr float lamp_within = 1e-2f;          // m
 constexpr int directions_beside = 16;
 constexpr float min_alignment = 0.99f;  // cosine between a sensor and the surface it measures
-constexpr float facing =
-    0.5f;  // least cosine between a surface's normal and the sensor's for the surface to count as behind it
-constexpr size_t max_around = 256;  // most triangles that are looked at within a millimetre
+constexpr float facing = 0.5f;          // least cosine between a sensor and a surface that counts as behind it
+constexpr size_t max_around = 256;      // most triangles that are looked at within a millimetre
 constexpr int pushes = 8;  // rounds of moving out of a corner: each wall moves the sensor a little towards the others
 
 /// A triangle close to a sensor. Its normal points to the side on which the sensor must be.

@@ -19,8 +19,7 @@
 namespace lw {
 namespace {
 
-constexpr double photon_share =
-    0.7;  // part of the wanted error that photons may use; the rays may use as much (the two add in squares)
+constexpr double photon_share = 0.7;  // part of the wanted error for the photons; rays get as much, as squares add
 constexpr double min_lux = 1;
 constexpr uint more_rays = 4;
 

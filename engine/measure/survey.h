@@ -28,10 +28,8 @@ struct MeasuredSet {
 
 struct SurveySettings {
     MeterSettings meter;
-    double error =
-        0;  // wanted half width of the 90 % interval, relative to the value; 0: whatever the map's photons give
-    double ray_error =
-        0.02;  // wanted relative half width by the rays alone; a sensor gets more rays until it is reached
+    double error = 0;          // wanted half width of the 90 % interval over the value; 0: what the map's photons give
+    double ray_error = 0.02;   // the same by rays alone; a sensor gets more rays until it is reached
     uint max_rays = 1u << 14;  // per sensor; 16 times as many with `error`
     uint64_t max_photons = 64'000'000;
     uint64_t memory = 0;    // bytes that a bake for `error` may use; 0: what the machine has available

@@ -7,9 +7,10 @@
 namespace lw {
 
 /// CSV, one row per sensor and ambiance, with the columns
-/// field,kind,sensor,x,y,z,nx,ny,nz,response,ambiance,lux,low,high,ray_error,photon_error,photons,doubt,pin_lux,pin_half_width,traced_lux,traced_error,agrees,
-/// then the lux of each lamp. low and high are the ends of the 90 % interval. The pin's columns are empty for sensors
-/// that lie on no surface (add_pins()), those of the path tracer unless trace_survey() was called.
+///   field,kind,sensor,x,y,z,nx,ny,nz,response,ambiance,lux,low,high,ray_error,photon_error,photons,doubt,
+///   pin_lux,pin_half_width,traced_lux,traced_error,agrees
+/// and then the lux of each lamp. low and high are the ends of the 90 % interval. The pin's columns are empty for
+/// sensors that lie on no surface (add_pins()), those of the path tracer unless trace_survey() was called.
 std::string sensors_as_csv(const Survey& survey, const Scene& scene);
 
 /// CSV, one row per field and ambiance, with the columns field,task,ambiance,count,blocked,doubtful, then Emin, Eavg,

@@ -15,10 +15,9 @@ namespace {
 
 constexpr uint64_t chunk_size = 1024;  // paths per task
 constexpr size_t chunks_at_once = 128;
-constexpr uint64_t pilot_paths = 8192;    // per lamp, to learn what it stores
-constexpr uint64_t guide_paths = 131072;  // per sun, to learn where its light enters
-constexpr size_t max_pilot_photons =
-    100'000;  // most photons that a task of the pilot stores, for rooms that absorb little
+constexpr uint64_t pilot_paths = 8192;         // per lamp, to learn what it stores
+constexpr uint64_t guide_paths = 131072;       // per sun, to learn where its light enters
+constexpr size_t max_pilot_photons = 100'000;  // of a task of the pilot, for rooms that absorb little
 std::vector<Chunk> split_paths(const std::vector<uint64_t>& emitted, const std::vector<uint64_t>& first) {
     std::vector<Chunk> chunks;
     for (uint light = 0; light < emitted.size(); ++light)

@@ -11,8 +11,7 @@
 namespace lw {
 namespace {
 
-constexpr uint64_t decoding_bytes =
-    12;  // per pixel while a picture is decoded: the unpacked picture, its RGBA form and a copy
+constexpr uint64_t decoding_bytes = 12;  // per pixel while decoding: the unpacked picture, its RGBA form and a copy
 
 uint wrap_of(int mode) {
     if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return wrap_clamp;

@@ -9,8 +9,7 @@ namespace lw {
 namespace {
 
 constexpr float narrow_roughness = 0.12f;  // a lobe at this roughness is some 2 degrees wide
-constexpr float min_share = 0.1f;  // least weight of each lobe of rough glass when lobes are chosen: the Fresnel factor
-                                   // varies with the microfacet
+constexpr float min_share = 0.1f;  // least weight in the choice of a lobe of rough glass, whose Fresnel factor varies
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 

@@ -13,8 +13,7 @@ namespace {
 constexpr uint64_t paths_per_task = 4096;
 constexpr int max_bounces = 64;
 constexpr float roughest_caster = 0.35f;  // a lobe at this roughness is some 15 degrees wide
-constexpr float min_alignment =
-    0.8f;  // least cosine between the normals at an arrival and at the point of the estimate
+constexpr float min_alignment = 0.8f;     // least cosine between normals at an arrival and at the estimate's point
 
 /// True for polished metal and glass. `s` is a Surface or a Material.
 bool is_polished(const auto& s) {

@@ -15,8 +15,7 @@ struct ReferenceSettings {
     double error = 0;
     bool illuminance = true;  // also trace a second path per sample, which measures lux at the first surface
     uint64_t seed = 1;
-    uint64_t caustic_paths =
-        200'000;               // paths from the lamps per sample, in scenes that have caustics; 0 leaves caustics out
+    uint64_t caustic_paths = 200'000;  // from the lamps per sample, in scenes with caustics; 0 leaves caustics out
     float caustic_radius = 0;  // m, radius of the kernel for caustics in the first sample; 0: 0.4 % of the scene's size
 };
 
