@@ -78,11 +78,13 @@ void draw_comparison(Session& s) {
 }
 
 void draw_quality(Viewing& v, const FrameStatistics& statistics) {
-    constexpr const char* modes[] = {"exact: k nearest photons", "smooth: photons, one pass",
-                                     "cached: irradiance of the bake"};
-    int mode = int(v.gather.mode);
+    const auto text_of = [](const GatherMode& mode) { return std::string(mode.name) + ": " + mode.description; };
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::Combo("##mode", &mode, modes, 3)) v.gather.mode = uint(mode);
+    if (ImGui::BeginCombo("##mode", text_of(gather_mode(v.gather.mode)).c_str())) {
+        for (const GatherMode& mode : gather_modes)
+            if (ImGui::Selectable(text_of(mode).c_str(), mode.mode == v.gather.mode)) v.gather.mode = mode.mode;
+        ImGui::EndCombo();
+    }
     int neighbours = int(v.gather.neighbours), rays = int(v.gather.shadow_rays), samples = int(v.max_samples);
     ImGui::SetNextItemWidth(110);
     if (ImGui::SliderInt("photons per estimate", &neighbours, 10, 1000, "%d", ImGuiSliderFlags_Logarithmic))

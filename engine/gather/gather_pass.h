@@ -2,7 +2,7 @@
 #pragma once
 #include "gather/picture.h"
 #include "gather/resident.h"
-#include "maps/estimate.h"
+#include "maps/gather_settings.h"
 
 namespace lw {
 
@@ -19,7 +19,7 @@ struct Rows {
 
 class GatherPass {
   public:
-    /// Throws Error when the exact mode is asked for more neighbours than PhotonEstimator::heap_size.
+    /// Throws Error when the exact mode is asked for more than max_exact_neighbours.
     GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings);
     /// Reads the visibility texture, writes the picture; for compute shaders and copies after a barrier.
     void record(vk::CommandBuffer commands, const Frame& frame) const { record(commands, frame, *picture_); }

@@ -1,10 +1,8 @@
 // Density estimation and direct light on the CPU: the text of shaders/gather.glsl and direct.glsl over a PhotonMap; the
 // oracle of the gather shader.
 #pragma once
-#include <algorithm>
-#include <cmath>
-
 #include "maps/cells.h"
+#include "maps/gather_settings.h"
 #include "maps/photon_map.h"
 #include "scene/bvh.h"
 #include "scene/surface.h"
@@ -12,21 +10,10 @@
 
 namespace lw {
 
-/// How photons are turned into radiance; the same settings drive the gather shader.
-struct GatherSettings {
-    uint mode = gather_mode_cached;
-    uint neighbours = 300;  // photons per estimate
-    // Per emissive mesh; 0: none where the map has a lattice, shadows as sharp as that, of lobes mirrors alone
-    // followed.
-    uint shadow_rays = 4;
-    uint paths = 1;                                     // per pixel along lobes that are followed
-    float followed_roughness = max_followed_roughness;  // lobes of surfaces smoother than this, at most 1, are followed
-};
-
 /// Photon estimate at surface points; read-only view, scene and map must outlive it.
 class PhotonEstimator : public SurfaceReader {
   public:
-    static constexpr uint heap_size = 1024;  // most neighbours of the exact mode
+    static constexpr uint heap_size = max_exact_neighbours;
 
     /// `light_powers`: RGB power of each light in its own unit (intensity x dimmer).
     PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_powers,
@@ -55,11 +42,10 @@ class PhotonEstimator : public SurfaceReader {
           scene_size(scene.size()),
           emitters(scene.emitters.data()),
           shadow_rays(settings.shadow_rays),
-          has_shadow_rays(settings.shadow_rays > 0 || !map.has_visible_lamps()),
+          has_shadow_rays(lw::has_shadow_rays(settings, map.has_visible_lamps())),
           has_followed(!bvh.nodes.empty()),
           looks_through(!bvh.nodes.empty()),
-          followed_roughness(settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f)
-                                                      : std::sqrt(min_alpha)),
+          followed_roughness(lw::followed_roughness(settings)),
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
         if (map.irradiance.empty()) return;
         const CellLight cells(scene, map);

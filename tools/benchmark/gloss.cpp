@@ -122,7 +122,7 @@ std::vector<Row> measure_threshold(const Bench& bench, float roughness) {
             const TimedFrame frame = room.render(gather, 1);
             const FrameError error = room.error(frame, floor);
             rows.push_back({{"roughness", roughness},
-                            {"mode", name_of_mode(mode)},
+                            {"mode", gather_mode(mode).name},
                             {"lobe", followed > 0 ? "followed, 16 paths" : "photons"},
                             {"rmse_%", 100 * error.rmse_without_noise},
                             {"bias_%", 100 * error.bias},
@@ -137,7 +137,7 @@ std::vector<Row> measure_room(const Bench& bench, const Room& described) {
     std::vector<Row> rows;
     for (uint views : {1u, 8u, 64u, 256u, 1024u}) {
         if (views > bench.pick(256u, described.max_views)) break;
-        const TimedFrame frame = room.render(default_gather(), views < 32 ? 3 : 1, views);
+        const TimedFrame frame = room.render(GatherSettings{}, views < 32 ? 3 : 1, views);
         Row row{{"room", described.file},
                 {"material", described.material},
                 {"roughness", described.roughness},

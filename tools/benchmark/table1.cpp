@@ -2,6 +2,7 @@
 // 4,000,000 photons, 500x500; global 3D kd-tree against the maps of triangles.
 #include "accuracy.h"
 #include "base/parallel.h"
+#include "maps/estimate.h"
 #include "rooms.h"
 #include "sections.h"
 #include "visible_points.h"
@@ -138,19 +139,19 @@ std::vector<Table> measure_table1(const Bench& bench) {
     Subject subject{bench, baked, {baked.scene.cameras[0], side, side, bench.pick<uint64_t>(32, 512)}, {}, {}};
     subject.reference = cached_reference(bench.folder, baked.scene, *baked.caster, subject.view);
     subject.points = visible_points(baked.scene, *baked.caster, baked.map, subject.view.camera, side, side);
-    const PhotonEstimator estimator(baked.scene, baked.map, baked.weights, {0, wanted});
+    const PhotonEstimator estimator(baked.scene, baked.map, baked.weights, {gather_mode_exact, wanted});
 
     std::vector<Row> rows = paper_rows();
     rows.push_back(measure_tree(subject, estimator));
     rows.push_back(measure_maps(subject, estimator));
-    for (const GatherMode& mode : gather_modes())
-        rows.push_back(measure_on_device(subject, baked, (std::string(mode.name) + ", photons hold all light").c_str(),
-                                         {mode.mode, wanted}));
+    for (const MeasuredMode& mode : measured_modes())
+        rows.push_back(
+            measure_on_device(subject, baked, (mode.name + ", photons hold all light").c_str(), {mode.mode, wanted}));
     bake.direct_in_photons = false;
     const BakedCase exact_direct(make_room({}), bake, bench.folder);
-    const GatherSettings fast = default_gather();
+    const GatherSettings fast;
     rows.push_back(measure_on_device(subject, exact_direct,
-                                     (std::string(name_of_mode(fast.mode)) + ", the default").c_str(), fast));
+                                     (std::string(gather_mode(fast.mode).name) + ", the default").c_str(), fast));
     Table table{"table1", "times",
                 "Table 1: furnished room of " + std::to_string(baked.scene.triangles.size()) + " triangles, " +
                     std::to_string(baked.photons.records.size()) + " photons, " + std::to_string(side) + "x" +
