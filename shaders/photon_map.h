@@ -85,6 +85,13 @@ LW_INLINE uint ray_pairs(uint lamps) { return max((lamps + lamps_per_pair - 1u) 
 LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
 LW_INLINE uint cell_lamp_shift(uint lamp) { return 8u * (lamp % cell_lamps_per_word); }
 
+/// The part of the corners of a cell whose bits 0 to 3 are set, in the order of corner_sees, as seen from `f` in the
+/// cell.
+LW_INLINE float corners_set(uint bits, vec2 f) {
+    vec4 set = vec4(float(bits & 1u), float((bits >> 1) & 1u), float((bits >> 2) & 1u), float((bits >> 3) & 1u));
+    return mix(mix(set.x, set.y, f.x), mix(set.z, set.w, f.x), f.y);
+}
+
 /// Which of 8 x 8 points of a cell a lamp lights: bit 8 j + i of (lit_low, lit_high), points at the middles of texels,
 /// and the light that reaches those, RGB9E5.
 struct ShadowMask {
@@ -127,6 +134,11 @@ struct Gathered {
 LW_INLINE vec3 place_in_grid(PhotonPlace place, SurfaceGrid grid) {
     return vec3(float(place.uv & 0xffffu) * grid.quantum.x, float(place.uv >> 16) * grid.quantum.y,
                 float(place.h_light_and_path & 0xffffu) * grid.quantum.z + grid.h_origin);
+}
+
+LW_INLINE vec3 position_in_grid(SurfaceGrid grid, vec3 position) {
+    vec3 offset = position - grid.origin;
+    return vec3(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
 }
 
 LW_INLINE uint light_of(PhotonPlace place) { return (place.h_light_and_path >> 16) & light_mask; }

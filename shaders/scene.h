@@ -95,7 +95,6 @@ struct Emitter {
     float area_below;
 };
 
-LW_CONST float lw_pi = 3.14159265358979f;
 /// Smallest GGX alpha that is evaluated as a lobe; smoother surfaces are followed as mirrors.
 LW_CONST float min_alpha = 1e-3f;
 

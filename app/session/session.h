@@ -7,7 +7,7 @@
 #include "app/session/lamp_board.h"
 #include "app/session/world.h"
 #include "app/walk/places.h"
-#include "maps/probe.h"
+#include "measure/probe.h"
 
 namespace lw {
 

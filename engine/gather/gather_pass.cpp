@@ -28,8 +28,7 @@ struct StagePipeline {
 FrameConstants constants_for(const Resident& resident, const GatherSettings& settings) {
     FrameConstants constants = resident.constants();
     constants.gather_mode = settings.mode;
-    constants.heap_size =
-        settings.mode == gather_mode_exact ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
+    constants.heap_size = settings.mode == gather_mode_exact ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
     constants.has_shadow_rays = has_shadow_rays(settings, constants.has_visible_lamps);
     constants.followed_roughness = followed_roughness(settings);
     constants.has_followed = settings.mode != gather_mode_inspect &&

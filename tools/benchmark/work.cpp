@@ -31,18 +31,18 @@ Row count_of(const Counted& counted, const BakedCase& baked, const Bvh& bvh, uin
     for (size_t i = 0; i < points.size(); i += step, ++pixels)
         estimator.shade(points[i].triangle, points[i].barycentrics, camera.position, uint(i),
                         uvec2(points[i].pixel % side, points[i].pixel / side));
-    const Reads& reads = estimator.reads;
+    const Reads& reads = estimator.counted;
     const double bytes = bytes_of_passes + reads.bytes() / double(pixels);
     Row row{{"scene", counted.scene},
             {"direct", counted.direct_in_photons ? "photons" : "exact"},
             {"mode", gather_mode(counted.gather.mode).name},
             {"k", counted.gather.neighbours},
             {"shadow_rays", counted.gather.shadow_rays},
-            {"surfaces", per_pixel(reads.surfaces, pixels)},
-            {"cells", per_pixel(reads.cells, pixels)},
-            {"photons_tested", per_pixel(reads.photons, pixels)},
-            {"boxes_tested", per_pixel(reads.nodes, pixels)},
-            {"triangles_tested", per_pixel(reads.triangles, pixels)},
+            {"surfaces", per_pixel(reads.of(Record::surface), pixels)},
+            {"cells", per_pixel(reads.of(Record::cell), pixels)},
+            {"photons_tested", per_pixel(reads.of(Record::photon), pixels)},
+            {"boxes_tested", per_pixel(reads.of(Record::box), pixels)},
+            {"triangles_tested", per_pixel(reads.of(Record::triangle), pixels)},
             {"bytes_per_pixel", bytes}};
     for (const auto& [name, count] : {std::pair("500x500", 500.0 * 500), std::pair("1920x1080", 1920.0 * 1080),
                                       std::pair("3840x2160", 3840.0 * 2160)})
