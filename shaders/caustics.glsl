@@ -19,7 +19,7 @@ void add_caustics(uint triangle, bool front, float left, MapPlace at, Surface s,
     vec3 local = position_in_grid(grid, s.position);
     float radius = caustic_radius(grid, local);
     float r2 = radius * radius;
-    float peak = 2.0f / (lw_pi * r2);
+    float peak = kernel_peak(r2);
     if (has_coverage && at.map != no_map) {  // kernels much smaller than the coverage's least one hardly reach a border
         float wide = min(4.0f * radius / grid.radius, 1.0f);
         peak /= mix(1.0f, coverage_at(at, radius), wide);
@@ -34,7 +34,7 @@ void add_caustics(uint triangle, bool front, float left, MapPlace at, Surface s,
             vec3 d = place_in_grid(place, grid) - local;
             float d2 = dot(d, d);
             if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
-            add_photon(i, place, 1.0f - d2 / r2, s, n_geometric, n_shading, to_view, sum);
+            add_photon(i, place, kernel_shape(d2 / r2), s, n_geometric, n_shading, to_view, sum);
         }
     }
     add_up(peak, s, n_shading, to_view, sum);

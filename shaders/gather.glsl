@@ -113,7 +113,7 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
     return sum;
 }
 
-/// One pass with an Epanechnikov kernel 2 / (pi r^2) (1 - d^2 / r^2) (Silverman 1986), no heap.
+/// One pass with the kernel of kernel.h, no heap.
 Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading,
                        vec3 to_view) LW_MEMBER {
     Gathered nothing = no_light();
@@ -136,13 +136,13 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
             float d2 = dot(d, d);
             if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
             row.photons += 1.0f;
-            add_photon(i, place, 1.0f - d2 * inverse_r2, s, n_geometric, n_shading, to_view, row);
+            add_photon(i, place, kernel_shape(d2 * inverse_r2), s, n_geometric, n_shading, to_view, row);
         }
         sum.radiance += row.radiance;
         sum.irradiance += row.irradiance;
         sum.photons += row.photons;
     }
-    add_up(2.0f / (lw_pi * r2), s, n_shading, to_view, sum);
+    add_up(kernel_peak(r2), s, n_shading, to_view, sum);
     return sum;
 }
 

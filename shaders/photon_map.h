@@ -1,6 +1,7 @@
 // Photon map records and their packing, shared by C++ and GLSL: CPU array = file bytes = GPU bytes.
 #ifndef LW_PHOTON_MAP_H
 #define LW_PHOTON_MAP_H
+#include "kernel.h"
 #include "types.h"
 #ifdef __cplusplus
 namespace lw {

@@ -25,7 +25,8 @@ class MapSamples {
         const CoverageLevels radii = radii_of_levels(grid);
         for (uint level = 0; level < coverage_levels; ++level) {
             inverse_radii2_[level] = 1 / (radii[level] * radii[level]);
-            peaks_[level] = 2 / lw_pi * inverse_radii2_[level];
+            // kernel_peak() but for the order of its factors, on which the last bit hangs.
+            peaks_[level] = kernel_height / lw_pi * inverse_radii2_[level];
         }
         vec2 high(-1e30f);
         low_ = vec2(1e30f);
@@ -84,7 +85,7 @@ class MapSamples {
             std::array<float, lanes> parts{};
             for (uint i = 0; i < count; i += lanes)
                 for (uint lane = 0; lane < lanes; ++lane)
-                    parts[lane] += areas[i + lane] * positive(1 - squared[i + lane] * inverse_radii2_[level]);
+                    parts[lane] += areas[i + lane] * kernel_weight(squared[i + lane] * inverse_radii2_[level]);
             sums[level] += peaks_[level] * std::accumulate(parts.begin(), parts.end(), 0.0f);
         }
     }

@@ -196,8 +196,8 @@ CoverageLevels integrate_kernels(const std::vector<vec2>& polygon, const Coverag
             float outside = whole, inside = 0;
             if (first < last) {
                 outside -= angle(last) - angle(first);
-                const auto integral = [&](float t) { return p * t * (0.5f - (p * p + t * t / 3) / (4 * r2)); };
-                inside = 2 / (lw_pi * r2) * (integral(last) - integral(first));
+                inside = kernel_peak(r2) *
+                         (kernel_shape_over_triangle(p, last, r2) - kernel_shape_over_triangle(p, first, r2));
             }
             sums[level] += inside + outside / (2 * lw_pi);
         }

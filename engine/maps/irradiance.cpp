@@ -91,7 +91,8 @@ class NodeLight {
         const vec3 local(uv, position_in_grid(grid, at).z);
         const float radius = maps_.bandwidth_from_counts(grid, local);
         photons.add(local, radius, sums);
-        return 2.0f / (lw_pi * radius * radius) * (1 / map_.flux_scale) /
+        // kernel_peak(), but for the order of the product: the last bit of the records hangs on it.
+        return kernel_height / (lw_pi * radius * radius) * (1 / map_.flux_scale) /
                std::max(unpack_coverage(map_.coverage[node], radius / grid.radius), min_coverage);
     }
 

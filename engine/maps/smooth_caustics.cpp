@@ -54,10 +54,10 @@ class CausticNodes {
         std::vector<vec3> light(lamps_, vec3(0));
         const float r2 = radius * radius, wide = std::min(4 * radius / grid.radius, 1.0f);
         const float covered = unpack_coverage(map_.coverage[node], radius / map_.grids[m].radius);
-        const float share = 2 / (lw_pi * r2) * (1 / map_.flux_scale) * map_.irradiance_scale /
+        const float share = kernel_peak(r2) * (1 / map_.flux_scale) * map_.irradiance_scale /
                             (1 + wide * (std::max(covered, min_coverage) - 1));
         maps_.visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
-            light[light_of(place)] += unpack_rgb9e5(map_.fluxes[i]) * (share * (1 - d2 / r2));
+            light[light_of(place)] += unpack_rgb9e5(map_.fluxes[i]) * (share * kernel_shape(d2 / r2));
         });
         return light;
     }

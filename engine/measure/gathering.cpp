@@ -56,10 +56,10 @@ void Gatherer::add_lamps(const Seen& at, LampChoice choice, Gathering& to) const
     }
 }
 
-/// Photons of a grid under an Epanechnikov kernel of which the part `covered` lies on surface.
+/// Photons of a grid under a kernel of which the part `covered` lies on surface.
 void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
                            Gathering& to) const {
-    const float r2 = radius * radius, peak = 2 / (lw_pi * r2) * (1 / map_.flux_scale) / covered;
+    const float r2 = radius * radius, peak = kernel_peak(r2) * (1 / map_.flux_scale) / covered;
     Surface s = at.surface;
     s.roughness = std::max(s.roughness, min_reflected_roughness);
     const vec3 diffuse = surfaces_.eval_brdf(s, at.n_shading, at.to_view, at.n_shading, true);
@@ -72,7 +72,7 @@ void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered,
             const float tilt = clamp(dot(at.n_shading, from) / std::max(dot(at.n_geometric, from), 0.05f), 0.0f, 2.0f);
             f = surfaces_.eval_brdf(s, at.n_shading, at.to_view, from, false) * tilt;
         }
-        const vec3 light = to.throughput * f * unpack_rgb9e5(map_.fluxes[i]) * (peak * (1 - d2 / r2));
+        const vec3 light = to.throughput * f * unpack_rgb9e5(map_.fluxes[i]) * (peak * kernel_shape(d2 / r2));
         to.lamps[lamp] += light;
         to.shares.add(i, file_lux(lamp, light));
     });

@@ -131,11 +131,12 @@ void LightMeter::add_caustic_on(const Sensor& sensor, PhotonShares& shares, Read
     std::vector<vec3> blurred(lights, vec3(0)), sharp(lights, vec3(0));
     const auto visit = [&](float radius, std::vector<vec3>& lamps, bool counts) {
         const float r2 = radius * radius,
-                    peak = 2 / (lw_pi * r2) * (1 / map_.flux_scale) / maps.caustic_coverage(at, grid, radius);
+                    peak = kernel_peak(r2) * (1 / map_.flux_scale) / maps.caustic_coverage(at, grid, radius);
         maps.visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
             const uint lamp = light_of(place);
             if (scene_.lights[lamp].type == light_mesh) return;
-            const ChannelLux lux = gatherer_.file_lux(lamp, unpack_rgb9e5(map_.fluxes[i]) * (peak * (1 - d2 / r2)));
+            const ChannelLux lux =
+                gatherer_.file_lux(lamp, unpack_rgb9e5(map_.fluxes[i]) * (peak * kernel_shape(d2 / r2)));
             lamps[lamp] += lux;
             if (counts) shares.add(i, lux * float(reading.rays));
         });

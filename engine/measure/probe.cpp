@@ -91,11 +91,12 @@ class Meter {
     /// Photons within `radius`, of which `covered` lies on surface; per lamp when `shares` is not null.
     Sum add_photons(const SurfaceGrid& grid, vec3 local, float covered, float radius, Measurement* shares) const {
         const float r2 = radius * radius;
-        const float share = 2 / (lw_pi * r2) * (1 / map_.flux_scale) / covered;
+        const float share = kernel_peak(r2) * (1 / map_.flux_scale) / covered;
         Sum sum;
         maps_.visit_photons(grid, local, radius, [&](uint i, PhotonPlace photon, float d2) {
             const uint lamp = light_of(photon);
-            const float lux = luminance(unpack_rgb9e5(map_.fluxes[i]) * powers_[lamp]) * (share * (1 - d2 / r2));
+            const float lux =
+                luminance(unpack_rgb9e5(map_.fluxes[i]) * powers_[lamp]) * (share * kernel_shape(d2 / r2));
             sum.value += lux;
             sum.squares += lux * lux;
             if (!shares) return;
