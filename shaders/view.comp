@@ -15,8 +15,6 @@ layout(set = 0, binding = binding_view_visibility) uniform utexture2D visibility
 layout(set = 0, binding = binding_view_screen, scalar) writeonly buffer Codes { uint codes[]; };
 layout(set = 0, binding = binding_view_readback, scalar) writeonly buffer Glances { ReadbackPixel readback_pixels[]; };
 
-float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
-
 uint pixel_at(ivec2 at) {
     ivec2 p = clamp(at, ivec2(0), ivec2(push.picture) - 1);
     return uint(p.y) * push.picture.x + uint(p.x);

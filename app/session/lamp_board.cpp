@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "shaders/color.h"
+
 namespace lw {
 namespace {
-
-float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 /// Luminous flux per unit of intensity, lm; 0 for directional light, whose flux depends on the scene.
 float unit_flux(const Light& light) {

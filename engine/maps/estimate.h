@@ -9,6 +9,7 @@
 #include "maps/map_reader.h"
 #include "scene/bvh.h"
 #include "scene/surface.h"
+#include "shaders/color.h"
 #include "shaders/followed.h"
 
 namespace lw {

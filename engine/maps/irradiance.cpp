@@ -10,6 +10,7 @@
 #include "maps/packing.h"
 #include "maps/photon_sums.h"
 #include "maps/smoothing.h"
+#include "shaders/color.h"
 #include "trace/emitter.h"
 #include "trace/sampling.h"
 
@@ -18,9 +19,6 @@ namespace {
 
 constexpr uint rays_to_mesh = 16;
 constexpr float max_record = 4096;
-
-float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
-float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 /// Light at the nodes of one map after another.
 class NodeLight {

@@ -6,14 +6,13 @@
 #include "maps/map_reader.h"
 #include "maps/packing.h"
 #include "scene/surface.h"
+#include "shaders/color.h"
 
 namespace lw {
 namespace {
 
 constexpr float max_record = 32768;  // RGB9E5 goes to 65408
 constexpr float min_steps = 1.5f;    // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
-
-float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
 /// The text of shaders/caustics.glsl at lattice nodes, lamp by lamp.
 class CausticNodes {

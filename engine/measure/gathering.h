@@ -6,6 +6,7 @@
 #include "maps/map_reader.h"
 #include "measure/reading.h"
 #include "scene/surface.h"
+#include "shaders/color.h"
 #include "trace/emitter.h"
 #include "trace/ray_caster.h"
 
@@ -47,7 +48,7 @@ class Gatherer {
 
     /// Light of one lamp per unit intensity and RGB as lux of its power in the file.
     ChannelLux file_lux(uint lamp, vec3 per_intensity) const {
-        return per_intensity * scene_.lights[lamp].intensity * vec3(0.2126f, 0.7152f, 0.0722f);
+        return per_intensity * scene_.lights[lamp].intensity * luminance_weights;
     }
 
   private:

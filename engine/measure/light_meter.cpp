@@ -6,10 +6,10 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "image/tonemap.h"
 #include "maps/coverage.h"
 #include "measure/gathering.h"
 #include "measure/placing.h"
+#include "shaders/color.h"
 #include "trace/sampling.h"
 
 namespace lw {

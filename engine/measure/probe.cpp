@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "image/tonemap.h"
 #include "maps/estimate.h"
 #include "maps/map_reader.h"
+#include "shaders/color.h"
 #include "trace/emitter.h"
 #include "trace/sampling.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/color.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -11,8 +12,6 @@ namespace {
 constexpr int max_path = 1000;  // most bounces of a path, for surfaces that absorb next to nothing: 0.99^1000 is 4e-5
 constexpr int depth_of_roulette = 64;
 constexpr size_t states_at_once = 8;  // paths traced side by side: while one waits for memory, others go on
-
-float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
 /// The class of a path of class `path` after the bounce `next`. Light that goes straight on keeps its class, as shadow
 /// rays pass there too.
@@ -23,8 +22,6 @@ uint path_after(uint path, const Scatter& next) {
 }
 
 }  // namespace
-
-double balance_of(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 /// The state of a path between two surfaces.
 struct PhotonTracer::PathState {
@@ -88,7 +85,7 @@ PhotonTracer::PathState PhotonTracer::start(Chunk& chunk, uint64_t index, float 
     PathState state{caster_.offset(photon.origin, photon.normal), photon.direction, photon.flux * share};
     state.light = chunk.light;
     state.rng = Rng(settings_.seed, chunk.light + 1, index);
-    chunk.emitted_flux += balance_of(state.flux);
+    chunk.emitted_flux += precise_luminance(state.flux);
     return state;
 }
 
@@ -103,7 +100,7 @@ bool PhotonTracer::look(Chunk& chunk, PathState& state) const {
         keep(chunk, there, bounce_at(blend, state.direction));
     }
     if (!hit) {
-        chunk.escaped += balance_of(state.flux);
+        chunk.escaped += precise_luminance(state.flux);
         return false;
     }
     state.next = *hit;
@@ -118,7 +115,7 @@ bool PhotonTracer::bounce(Chunk& chunk, PathState& state) const {
     keep(chunk, state, at);
     if (!leave(chunk, state, at)) return false;
     if (++state.depth < max_path) return true;
-    chunk.absorbed += balance_of(state.flux);
+    chunk.absorbed += precise_luminance(state.flux);
     return false;
 }
 
@@ -128,7 +125,7 @@ void PhotonTracer::pass_medium(Chunk& chunk, PathState& state, const Bounce& at)
         at.matte ? state.medium : absorption_before(surfaces_, at.surface, state.direction, state.medium);
     if (absorption == vec3(0)) return;
     const vec3 arriving = state.flux * surfaces_.passed_by_medium(absorption, state.next.distance);
-    chunk.absorbed += balance_of(state.flux) - balance_of(arriving);
+    chunk.absorbed += precise_luminance(state.flux) - precise_luminance(arriving);
     state.flux = arriving;
 }
 
@@ -192,7 +189,7 @@ bool PhotonTracer::survives(Chunk& chunk, PathState& state, vec3 weight, float m
     const float survival = before > 0 ? std::min(max_survival, after / before) : 0.0f;
     const bool goes_on = state.rng.next() < survival;
     const vec3 kept = goes_on ? reflected * (1 / survival) : vec3(0);
-    chunk.absorbed += balance_of(state.flux) - balance_of(kept);
+    chunk.absorbed += precise_luminance(state.flux) - precise_luminance(kept);
     state.flux = kept;
     return goes_on;
 }

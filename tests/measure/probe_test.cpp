@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "maps/bake.h"
 #include "scene/gltf.h"
+#include "shaders/color.h"
 #include "trace/build_bvh.h"
 #include "trace/path_tracer.h"
 #include "trace/sampling.h"
@@ -53,7 +54,7 @@ Truth traced(const PathTracer& tracer, const Measurement& m, uint64_t seed, int 
     for (int i = 0; i < samples; ++i) {
         Rng rng(seed, 9, uint64_t(i));
         const vec3 e = tracer.irradiance(m.position + m.normal * 1e-5f, m.normal, rng);
-        const double lux = 0.2126 * double(e.x) + 0.7152 * double(e.y) + 0.0722 * double(e.z);
+        const double lux = precise_luminance(e);
         sum += lux, squares += lux * lux;
     }
     const double mean = sum / samples;

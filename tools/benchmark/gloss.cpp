@@ -8,6 +8,7 @@
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "sections.h"
+#include "shaders/color.h"
 #include "trace/caustics.h"
 
 namespace lw {
@@ -102,7 +103,7 @@ std::vector<bool> Measured::caustic_pixels(const TimedFrame& frame) const {
         const Surface s = surfaces.surface_at(hit->triangle, hit->barycentrics);
         if (casts_caustics(s)) continue;  // keeps none
         const vec3 n = s.geometric_normal * (dot(s.geometric_normal, direction) > 0 ? -1.0f : 1.0f);
-        lit[i] = double(dot(caustics.irradiance(s.position, n), vec3(0.2126f, 0.7152f, 0.0722f))) > 0.5 * mean;
+        lit[i] = double(luminance(caustics.irradiance(s.position, n))) > 0.5 * mean;
     }
     return lit;
 }

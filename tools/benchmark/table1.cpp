@@ -5,6 +5,7 @@
 #include "maps/estimate.h"
 #include "rooms.h"
 #include "sections.h"
+#include "shaders/color.h"
 #include "visible_points.h"
 
 namespace lw {
@@ -49,7 +50,7 @@ void integrate_all(const std::vector<VisiblePoint>& points, const Found& found, 
             Gathered sum{vec3(0), vec3(0), 0, 0};
             const float kernel = 1.0f / (lw_pi * found.radius_squared[i]);
             for (uint n = 0; n < found.counts[i]; ++n) add(found.indices[i * wanted + n], kernel, points[i], sum);
-            lux[points[i].pixel] = dot(sum.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
+            lux[points[i].pixel] = luminance(sum.irradiance);
         },
         256);
 }
