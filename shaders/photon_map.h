@@ -137,9 +137,15 @@ LW_INLINE vec3 place_in_grid(PhotonPlace place, SurfaceGrid grid) {
                 float(place.h_light_and_path & 0xffffu) * grid.quantum.z + grid.h_origin);
 }
 
+/// A point of the scene as u, v, h of the grid's frame.
 LW_INLINE vec3 position_in_grid(SurfaceGrid grid, vec3 position) {
     vec3 offset = position - grid.origin;
     return vec3(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+}
+
+/// The point of the scene at u, v, h of the grid's frame.
+LW_INLINE vec3 position_of(SurfaceGrid grid, vec3 local) {
+    return grid.origin + local.x * grid.u_axis + local.y * grid.v_axis + local.z * grid.normal;
 }
 
 LW_INLINE uint light_of(PhotonPlace place) { return (place.h_light_and_path >> 16) & light_mask; }

@@ -1,0 +1,26 @@
+// The geometry of a triangle of the scene.
+#pragma once
+#include <array>
+
+#include "scene/scene.h"
+
+namespace lw {
+
+/// Its corners, m, in the order of its front.
+inline std::array<vec3, 3> triangle_corners(const Scene& scene, size_t triangle) {
+    const uvec3 c = scene.triangles[triangle];
+    return {scene.positions[c.x], scene.positions[c.y], scene.positions[c.z]};
+}
+
+/// edge_product() of its corners.
+inline vec3 triangle_product(const Scene& scene, size_t triangle) {
+    const auto [a, b, c] = triangle_corners(scene, triangle);
+    return edge_product(a, b, c);
+}
+
+/// One side, m2.
+inline double triangle_area(const Scene& scene, size_t triangle) {
+    return 0.5 * double(length(triangle_product(scene, triangle)));
+}
+
+}  // namespace lw
