@@ -84,7 +84,15 @@ LW_CONST uint first_mask_shift = 4u;
 LW_CONST uint lamps_per_pair = 2u;
 LW_INLINE uint ray_pairs(uint lamps) { return max((lamps + lamps_per_pair - 1u) / lamps_per_pair, 1u); }
 LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
-LW_INLINE uint cell_lamp_shift(uint lamp) { return 8u * (lamp % cell_lamps_per_word); }
+LW_CONST uint bits_per_cell_lamp = 8u;
+LW_INLINE uint cell_lamp_shift(uint lamp) { return bits_per_cell_lamp * (lamp % cell_lamps_per_word); }
+/// What a cell knows of the lamp whose bits begin at `shift` in a word.
+LW_INLINE uint cell_lamp_bits(uint word, uint shift) { return (word >> shift) & 0xffu; }
+/// The lowest bit of each lamp of a word; and of those for which `mark` is set, some_visible to has_shadow_mask.
+LW_CONST uint lowest_lamp_bits = 0x01010101u;
+LW_INLINE uint lamps_with(uint word, uint mark) { return (word >> uint(findLSB(mark))) & lowest_lamp_bits; }
+/// The bits of the corners that see some of a lamp, as corners_set() takes them.
+LW_INLINE uint seeing_corners(uint lamp_bits) { return lamp_bits >> uint(findLSB(corner_sees)); }
 
 /// The part of the corners of a cell whose bits 0 to 3 are set, in the order of corner_sees, as seen from `f` in the
 /// cell.
