@@ -19,11 +19,7 @@ void add_caustics(uint triangle, bool front, float left, MapPlace at, Surface s,
     vec3 local = position_in_grid(grid, s.position);
     float radius = caustic_radius(grid, local);
     float r2 = radius * radius;
-    float peak = kernel_peak(r2);
-    if (has_coverage && at.map != no_map) {  // kernels much smaller than the coverage's least one hardly reach a border
-        float wide = min(4.0f * radius / grid.radius, 1.0f);
-        peak /= mix(1.0f, coverage_at(at, radius), wide);
-    }
+    float peak = kernel_peak(r2) / caustic_coverage(at, grid, radius);
     Gathered sum = no_light();
     int y1 = min(int(floor((local.y + radius) / grid.cell_size)), int(grid.rows) - 1);
     for (int y = max(int(floor((local.y - radius) / grid.cell_size)), 0); y <= y1; ++y) {

@@ -172,8 +172,7 @@ Gathered gather_photons(MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading
     if (gather_mode == gather_mode_cached) return gather_cached(at, s, n_shading, to_view);
     if (gather_mode == gather_mode_exact) return gather_exact(at.grid, at.local, s, n_geometric, n_shading, to_view);
     Gathered sum = gather_smooth(at.grid, at.local, s, n_geometric, n_shading, to_view);
-    if (!has_coverage) return sum;
-    float covered = coverage_at(at, sum.radius);
+    float covered = covered_part(at, sum.radius);
     sum.radiance /= covered;
     sum.irradiance /= covered;
     return sum;

@@ -58,7 +58,7 @@ Inspected inspect(Seen seen, float dot_reach, uint seed) LW_MEMBER {
             result.photons += 1.0f;
         }
     }
-    float coverage = has_coverage ? coverage_at(seen.at, radius) : 1.0f;
+    float coverage = covered_part(seen.at, radius);
     Gathered direct = no_light();
     for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
         add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_geometric, seen.to_eye, first_points(seed),

@@ -1,6 +1,6 @@
 // Where a point lies in the maps, how many photons are around it and how much of a kernel there lies on surface. One
 // text for C++ and GLSL. The including scope provides the functions grid_at, is_cut (false for no_map), cell_start,
-// node_coverage and the constant neighbours. Needs photon_map.h.
+// node_coverage and the constants neighbours, has_coverage. Needs photon_map.h.
 
 ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
     return ivec2(int(floor(local.x / grid.cell_size)), int(floor(local.y / grid.cell_size)));
@@ -114,7 +114,7 @@ MapPlace place_on(uint map, vec3 position) LW_MEMBER {
     return at;
 }
 
-/// The part of the kernel of `radius` around a place that lies on surface light can reach; between the lattice's nodes.
+/// Coverage of the kernel of `radius` around a place, between the lattice's nodes.
 float coverage_at(MapPlace at, float radius) LW_MEMBER {
     float fraction = radius / at.grid.radius;
     uint node = at.cell;
@@ -124,4 +124,15 @@ float coverage_at(MapPlace at, float radius) LW_MEMBER {
     float high = mix(unpack_coverage(node_coverage(above), fraction),
                      unpack_coverage(node_coverage(above + 1u), fraction), at.f.x);
     return max(mix(low, high, at.f.y), min_coverage);
+}
+
+/// The part of the kernel of `radius` around a place that lies on surface light can reach; 1 where the map does not
+/// know.
+float covered_part(MapPlace at, float radius) LW_MEMBER { return has_coverage ? coverage_at(at, radius) : 1.0f; }
+
+/// The same for a kernel on the grid of caustics of that surface: kernels much smaller than the coverage's least one
+/// hardly reach a border.
+float caustic_coverage(MapPlace at, SurfaceGrid caustics, float radius) LW_MEMBER {
+    if (!has_coverage || at.map == no_map) return 1.0f;
+    return mix(1.0f, coverage_at(at, radius), min(4.0f * radius / caustics.radius, 1.0f));
 }

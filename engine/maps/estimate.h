@@ -1,5 +1,6 @@
-// Density estimation and direct light on the CPU: the text of the gather shader over a Scene and a PhotonMap. The
-// oracle of the tests, the benchmark and the probe; what only looks photons up takes maps/map_reader.h.
+// Density estimation and direct light on the CPU: the text of the gather shader over a Scene and a PhotonMap. For tests
+// and the benchmark, to which it is the oracle of the shader, and for the light a viewer sees in the probe and in
+// reports. What only looks photons up takes maps/map_reader.h.
 #pragma once
 #include <cassert>
 #include <memory>

@@ -7,13 +7,13 @@
 namespace lw {
 
 /// Read-only view of a PhotonMap with the functions of shaders/map_lookup.glsl as members: place_on(map, position),
-/// bandwidth_from_counts(grid, local), caustic_radius(grid, local), coverage_at(place, radius). The map must outlive
+/// bandwidth_from_counts(grid, local), caustic_radius(grid, local), covered_part(place, radius). The map must outlive
 /// it.
 class MapReader {
   public:
     /// `neighbours`: photons that bandwidth_from_counts() looks for.
     explicit MapReader(const PhotonMap& map, uint neighbours_wanted = GatherSettings{}.neighbours)
-        : neighbours(neighbours_wanted), map_(map) {}
+        : neighbours(neighbours_wanted), has_coverage(map.has_coverage()), map_(map) {}
 
     /// The map of a side of a triangle, or no_map; of its caustics, only where the map has some.
     uint map_of(uint triangle, bool front) const { return map_.triangle_maps[2 * size_t(triangle) + (front ? 0 : 1)]; }
@@ -27,17 +27,6 @@ class MapReader {
     uint node_coverage(uint node) const { return map_.coverage[node]; }
 
 #include "shaders/map_lookup.glsl"
-
-    /// Part of the kernel of `radius` around a place that lies on surface; 1 where the map does not know.
-    float covered_part(const MapPlace& at, float radius) const {
-        return map_.has_coverage() ? coverage_at(at, radius) : 1.0f;
-    }
-
-    /// The same for the kernel of a caustic on `grid`; as in shaders/caustics.glsl.
-    float caustic_coverage(const MapPlace& at, const SurfaceGrid& grid, float radius) const {
-        if (!map_.has_coverage() || at.map == no_map) return 1;
-        return mix(1.0f, coverage_at(at, radius), min(4.0f * radius / grid.radius, 1.0f));
-    }
 
     /// Calls visit(reference, place, squared distance) for the photons of a grid within `radius` of a point in its
     /// frame that lie on the same surface.
@@ -59,6 +48,7 @@ class MapReader {
   private:
     static constexpr SurfaceGrid no_grid{};
     uint neighbours;
+    bool has_coverage;
     const PhotonMap& map_;
 };
 
