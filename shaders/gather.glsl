@@ -1,6 +1,6 @@
 // Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
 // Real-Time Walkthrough Rendering, 2012). One text for C++ and GLSL. The including scope provides the functions
-// grid_at, is_cut (false for no_map), cell_start, photon_place, photon_flux, photon_direction, light_power, light_at,
+// grid_at, cut_at, cell_start, photon_place, photon_flux, photon_direction, light_power, light_at,
 // node_coverage, cell_light and the constants has_caustics, gather_mode, neighbours, heap_size, max_radius,
 // inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage, has_followed. Needs photon_map.h and
 // bsdf.glsl.
@@ -228,7 +228,7 @@ struct MapPlace {
 
 /// The map of a point of a surface whose map may be cut.
 uint map_at(uint map, vec3 position) LW_MEMBER {
-    while (is_cut(map)) map = behind_cut(grid_at(map), position);
+    while (is_cut(map)) map = behind_cut(cut_at(map & ~cut_bit), position);
     return map;
 }
 

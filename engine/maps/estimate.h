@@ -89,7 +89,7 @@ class PhotonEstimator : public SurfaceReader {
         return map_.caustic_map_of(2 * size_t(triangle) + (front ? 0 : 1));
     }
     const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : no_grid_; }
-    bool is_cut(uint map) const { return map < map_.grids.size() && map_.grids[map].columns == 0; }
+    const Cut& cut_at(uint i) const { return map_.cuts[i]; }
     uint cell_start(uint cell) const { return map_.cell_starts[cell]; }
     const BvhNode& bvh_node_at(uint i) const { return bvh_nodes[i]; }
     uint bvh_triangle_at(uint i) const { return bvh_triangles[i]; }
