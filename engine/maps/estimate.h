@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "maps/cells.h"
+#include "maps/grid_reader.h"
 #include "maps/photon_map.h"
 #include "scene/bvh.h"
 #include "scene/surface.h"
@@ -108,17 +109,7 @@ class PhotonEstimator : public SurfaceReader {
     /// frame that lie on the same surface.
     template <class Visit>
     void visit_photons(const SurfaceGrid& grid, vec3 local, float radius, const Visit& visit) const {
-        const vec3 reach(radius, radius, 0);
-        const ivec2 low = cell_of(local - reach, grid), high = cell_of(local + reach, grid);
-        for (int y = low.y; y <= high.y; ++y) {
-            const uvec2 span = row_span(grid, low.x, high.x, y);
-            for (uint i = span.x; i < span.y; ++i) {
-                const PhotonPlace place = photon_place(i);
-                const vec3 d = place_in_grid(place, grid) - local;
-                const float d2 = dot(d, d);
-                if (d2 < radius * radius && on_same_surface(d.z, d2, max_radius)) visit(i, place, d2);
-            }
-        }
+        GridReader{map_, max_radius}.visit_photons(grid, local, radius, visit);
     }
 
     /// The part of a caustic's kernel at a place that lies on surface; as in shaders/caustics.glsl.

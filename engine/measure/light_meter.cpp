@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "image/tonemap.h"
-#include "maps/coverage.h"
+#include "maps/buried.h"
 #include "measure/gathering.h"
 #include "measure/placing.h"
 #include "trace/sampling.h"
