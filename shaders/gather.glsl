@@ -1,4 +1,4 @@
-// Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
+// Photon density estimation on the 2D grid of one patch (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
 // Real-Time Walkthrough Rendering, 2012). One text for C++ and GLSL. The including scope provides the functions
 // grid_at, cut_at, cell_start, photon_place, photon_flux, photon_direction, light_power, light_at,
 // node_coverage, cell_light and the constants has_caustics, gather_mode, neighbours, heap_size, max_radius,
@@ -51,7 +51,7 @@ void add_up(float peak, Surface s, vec3 n_shading, vec3 to_view, LW_INOUT(Gather
 }
 
 /// Exact k nearest photons with a bounded max-heap, nearest cells first; sum over the k-1 nearer ones / (pi r_k^2),
-/// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside the map's radius: all of them over its
+/// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside the grid's radius: all of them over its
 /// disc.
 Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading,
                       vec3 to_view) LW_MEMBER {
@@ -155,32 +155,32 @@ float corners_set(uint bits, vec2 f) LW_MEMBER {
     return mix(mix(set.x, set.y, f.x), mix(set.z, set.w, f.x), f.y);
 }
 
-/// Where a point lies on a map.
-struct MapPlace {
-    uint map;  // or no_map, then nothing else holds
+/// Where a point lies in a grid.
+struct GridPlace {
+    uint index;  // of the grid, or no_grid, then nothing else holds
     SurfaceGrid grid;
     vec3 local;  // u, v, h in the frame of the grid, m
     uint cell;   // the lower left node of the cell of the lattice
     vec2 f;      // where in the cell
 };
 
-/// The map of a point of a surface whose map may be cut.
-uint map_at(uint map, vec3 position) LW_MEMBER {
-    while (is_cut(map)) map = behind_cut(cut_at(map & ~cut_bit), position);
-    return map;
+/// The grid of a point of a surface whose grid or cut is `index`; no_grid where it has none.
+uint behind_cuts(uint index, vec3 position) LW_MEMBER {
+    while (is_cut(index)) index = behind_cut(cut_at(index & ~cut_bit), position);
+    return index;
 }
 
-MapPlace place_on(uint map, vec3 position) LW_MEMBER {
-    MapPlace at;
-    at.map = map_at(map, position);
-    at.grid = grid_at(at.map == no_map ? 0u : at.map);  // anything, but there
+GridPlace place_on_grid(uint index, vec3 position) LW_MEMBER {
+    GridPlace at;
+    at.index = behind_cuts(index, position);
+    at.grid = grid_at(at.index == no_grid ? 0u : at.index);  // anything, but there
     at.local = position_in_grid(at.grid, position);
     at.cell = cell_node(at.grid.lattice, at.local, at.f);
     return at;
 }
 
 /// The part of the kernel of `radius` around a place that lies on surface light can reach; between the lattice's nodes.
-float coverage_at(MapPlace at, float radius) LW_MEMBER {
+float coverage_at(GridPlace at, float radius) LW_MEMBER {
     float fraction = radius / at.grid.radius;
     uint node = at.cell;
     uint above = node + at.grid.lattice.columns;
@@ -193,7 +193,7 @@ float coverage_at(MapPlace at, float radius) LW_MEMBER {
 
 /// The irradiance computed ahead at the corners of the cell, all lamps at their present power; light from all sides
 /// alike for the BRDF.
-Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
+Gathered gather_cached(GridPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
     uvec4 corners = cell_light(at.cell);
     vec3 low = mix(unpack_rgb9e5(corners.x), unpack_rgb9e5(corners.y), at.f.x);
     vec3 high = mix(unpack_rgb9e5(corners.z), unpack_rgb9e5(corners.w), at.f.x);
@@ -210,10 +210,10 @@ Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_
     return sum;
 }
 
-/// Reflected radiance and irradiance at surface `s` from the photons around a place; zero when it is on no map.
+/// Reflected radiance and irradiance at surface `s` from the photons around a place; zero when it is in no grid.
 /// n_geometric and n_shading are turned to the viewer.
-Gathered gather_photons(MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
-    if (at.map == no_map) return no_light();
+Gathered gather_photons(GridPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
+    if (at.index == no_grid) return no_light();
     if (gather_mode == gather_mode_cached) return gather_cached(at, s, n_shading, to_view);
     if (gather_mode == gather_mode_exact) return gather_exact(at.grid, at.local, s, n_geometric, n_shading, to_view);
     Gathered sum = gather_smooth(at.grid, at.local, s, n_geometric, n_shading, to_view);

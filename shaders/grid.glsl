@@ -1,4 +1,4 @@
-// Cells of the 2D grid of one map, and the bandwidths that follow from the photons counted in them (paper, sections
+// Cells of the 2D grid of one patch, and the bandwidths that follow from the photons counted in them (paper, sections
 // 2.1-2.2). One text for C++ and GLSL. The including scope provides the function cell_start and the constant
 // neighbours; needs photon_map.h.
 

@@ -33,7 +33,7 @@ class PhotonEstimator : public SurfaceReader {
     PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_powers,
                     GatherSettings settings, const Bvh& bvh = no_shadows())
         : SurfaceReader(scene),
-          triangle_maps(map.triangle_maps.data()),
+          grid_of_side(map.grid_of_side.data()),
           map_(map),
           weights_(light_powers),
           gather_mode(settings.mode),
@@ -85,11 +85,11 @@ class PhotonEstimator : public SurfaceReader {
     uvec4 cell_light(uint cell) const { return cell_light_[cell]; }
     uint cell_word(uint word) const { return cell_words_[word]; }
     uvec4 shadow_mask(uint i) const { return shadow_masks_[i]; }
-    uint map_of(uint triangle, bool front) const { return triangle_maps[2 * triangle + (front ? 0 : 1)]; }
-    uint caustic_map_of(uint triangle, bool front) const {
-        return map_.caustic_map_of(2 * size_t(triangle) + (front ? 0 : 1));
+    uint grid_of(uint triangle, bool front) const { return grid_of_side[2 * triangle + (front ? 0 : 1)]; }
+    uint caustic_grid_of(uint triangle, bool front) const {
+        return map_.caustic_grid_of(2 * size_t(triangle) + (front ? 0 : 1));
     }
-    const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : no_grid_; }
+    const SurfaceGrid& grid_at(uint index) const { return index < map_.grids.size() ? map_.grids[index] : no_grid_; }
     const Cut& cut_at(uint i) const { return map_.cuts[i]; }
     uint cell_start(uint cell) const { return map_.cell_starts[cell]; }
     const BvhNode& bvh_node_at(uint i) const { return bvh_nodes[i]; }
@@ -113,8 +113,8 @@ class PhotonEstimator : public SurfaceReader {
     }
 
     /// The part of a caustic's kernel at a place that lies on surface; as in shaders/caustics.glsl.
-    float caustic_coverage(const MapPlace& at, const SurfaceGrid& grid, float radius) const {
-        if (!has_coverage || at.map == no_map) return 1;
+    float caustic_coverage(const GridPlace& at, const SurfaceGrid& grid, float radius) const {
+        if (!has_coverage || at.index == no_grid) return 1;
         return mix(1.0f, coverage_at(at, radius), min(4.0f * radius / grid.radius, 1.0f));
     }
 
@@ -130,7 +130,7 @@ class PhotonEstimator : public SurfaceReader {
         return none;
     }
 
-    const uint* triangle_maps;
+    const uint* grid_of_side;
     const PhotonMap& map_;
     const std::vector<vec3>& weights_;
     uint gather_mode;

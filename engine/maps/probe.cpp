@@ -43,10 +43,11 @@ class Meter : public PhotonEstimator {
         m.triangle = hit.triangle;
         m.lamps.resize(light_count);
         float variance = 0;
-        const MapPlace place = place_on(map_of(hit.triangle, front), s.position);
-        if (place.map != no_map) variance += add_reflected(place.grid, place, false, m);
+        const GridPlace place = place_on_grid(grid_of(hit.triangle, front), s.position);
+        if (place.index != no_grid) variance += add_reflected(place.grid, place, false, m);
         if (has_caustics)
-            if (const uint caustics = map_at(caustic_map_of(hit.triangle, front), s.position); caustics != no_map)
+            if (const uint caustics = behind_cuts(caustic_grid_of(hit.triangle, front), s.position);
+                caustics != no_grid)
                 variance += add_reflected(grid_at(caustics), place, true, m);
         if (has_direct)
             for (uint lamp = 0; lamp < light_count; ++lamp) variance += add_direct(lamp, m);
@@ -87,7 +88,7 @@ class Meter : public PhotonEstimator {
 
     /// Returns the variance with the square of the bias, which grows as the square of the bandwidth: what narrower
     /// kernels read differently, less what noise alone makes different.
-    float add_reflected(const SurfaceGrid& grid, const MapPlace& place, bool caustic, Measurement& m) const {
+    float add_reflected(const SurfaceGrid& grid, const GridPlace& place, bool caustic, Measurement& m) const {
         const vec3 local = position_in_grid(grid, m.position);
         const float bandwidth = caustic ? caustic_radius(grid, local) : bandwidth_from_counts(grid, local);
         if (m.bandwidth <= 0) m.bandwidth = bandwidth;

@@ -110,9 +110,9 @@ void LightMeter::add_caustic_on(const Sensor& sensor, PhotonShares& shares, Read
     if (!hit) return;
     const Surface s = surface_at(hit->triangle, hit->barycentrics);
     const bool front = dot(s.geometric_normal, sensor.normal) > 0;
-    const uint own = map_at(caustic_map_of(hit->triangle, front), s.position);
-    if (own == no_map) return;
-    const MapPlace at = place_on(map_of(hit->triangle, front), s.position);
+    const uint own = behind_cuts(caustic_grid_of(hit->triangle, front), s.position);
+    if (own == no_grid) return;
+    const GridPlace at = place_on_grid(grid_of(hit->triangle, front), s.position);
     const SurfaceGrid& grid = grid_at(own);
     const vec3 local = position_in_grid(grid, s.position);
     const float wide = caustic_radius(grid, local);

@@ -25,7 +25,7 @@ class CountingEstimator : public PhotonEstimator {
     Surface surface_at(uint triangle, vec2 barycentrics) const {
         return ++reads.surfaces, PhotonEstimator::surface_at(triangle, barycentrics);
     }
-    const SurfaceGrid& grid_at(uint map) const { return ++reads.grids, PhotonEstimator::grid_at(map); }
+    const SurfaceGrid& grid_at(uint index) const { return ++reads.grids, PhotonEstimator::grid_at(index); }
     PhotonPlace photon_place(uint i) const { return ++reads.photons, PhotonEstimator::photon_place(i); }
     uint photon_flux(uint i) const { return ++reads.photon_light, PhotonEstimator::photon_flux(i); }
     uint photon_direction(uint i) const { return ++reads.directions, PhotonEstimator::photon_direction(i); }
@@ -34,9 +34,9 @@ class CountingEstimator : public PhotonEstimator {
     uint cell_word(uint word) const { return ++reads.words, PhotonEstimator::cell_word(word); }
     uint cell_start(uint cell) const { return ++reads.words, PhotonEstimator::cell_start(cell); }
     uint node_coverage(uint node) const { return ++reads.words, PhotonEstimator::node_coverage(node); }
-    uint map_of(uint triangle, bool front) const { return ++reads.words, PhotonEstimator::map_of(triangle, front); }
-    uint caustic_map_of(uint triangle, bool front) const {
-        return ++reads.words, PhotonEstimator::caustic_map_of(triangle, front);
+    uint grid_of(uint triangle, bool front) const { return ++reads.words, PhotonEstimator::grid_of(triangle, front); }
+    uint caustic_grid_of(uint triangle, bool front) const {
+        return ++reads.words, PhotonEstimator::caustic_grid_of(triangle, front);
     }
     const BvhNode& bvh_node_at(uint i) const { return ++reads.nodes, PhotonEstimator::bvh_node_at(i); }
     uint bvh_triangle_at(uint i) const { return ++reads.triangles, PhotonEstimator::bvh_triangle_at(i); }
