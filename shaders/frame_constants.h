@@ -22,9 +22,6 @@ LW_CONSTANT(bool, has_visible_lamps, true)
 LW_CONSTANT(bool, has_shadow_masks, true)
 LW_CONSTANT(bool, has_caustics, true)
 LW_CONSTANT(bool, has_smooth_caustics, true)  // at the nodes of the lattice
-LW_CONSTANT(uint, first_cut, no_map)          // first of the cuts among the grids; no_map: none
-LW_CONSTANT(uint, first_caustic_map, no_map)  // grids from here on are of caustics
-LW_CONSTANT(uint, first_caustic_cut, no_map)  // first of their cuts
 LW_CONSTANT(uint, chunks, 1u)                 // buffers that the photon records are split over
 LW_CONSTANT(uint, chunk_shift, 27u)           // a buffer holds 2^chunk_shift records
 // How light is gathered (gather/gather_pass).
@@ -37,7 +34,8 @@ LW_CONSTANT(bool, has_shadow_rays, true)
 LW_CONSTANT(bool, has_followed, true)         // view paths go on from some surfaces
 LW_CONSTANT(float, followed_roughness, 0.0f)  // lobes of smoother surfaces are followed
 LW_CONSTANT(bool, looks_through, true)        // glass and blends are surfaces of the view, what is behind is followed
-LW_CONSTANT(uint, first_see_through, no_map)  // with ray queries: first triangle that may let light through, or no_map
+LW_CONSTANT(uint, first_see_through,
+            no_grid)  // with ray queries: first triangle that may let light through, or no_triangle
 // Which triangles are drawn (gather/cull_pass).
 LW_CONSTANT(uint, first_listed, 0u)        // where the triangles of a draw begin in the list
 LW_CONSTANT(float, pixel_margin, 0.0625f)  // pixels by which a triangle may reach beyond its box

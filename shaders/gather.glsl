@@ -1,4 +1,4 @@
-// Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
+// Photon density estimation on the 2D grid of one patch (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
 // Real-Time Walkthrough Rendering, 2012). One text for C++ and GLSL. The including scope provides the functions
 // photon_place, photon_flux, photon_direction, light_power, light_at, cell_light and the constants has_caustics,
 // gather_mode, neighbours, heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions,
@@ -48,9 +48,9 @@ void add_up(float peak, Surface s, vec3 n_shading, vec3 to_view, LW_INOUT(Gather
     if (!has_directions) sum.radiance = sum.irradiance * eval_brdf(s, n_shading, to_view, n_shading, true);
 }
 
-/// The exact mode: finds the k nearest photons with a bounded max-heap, nearest cells first. The estimate is the sum
-/// over the k - 1 nearer ones / (pi r_k^2), which is unbiased (Garcia et al. 2012). When fewer than k photons lie
-/// within the search radius: all of them over the disc of that radius.
+/// Exact k nearest photons with a bounded max-heap, nearest cells first; sum over the k-1 nearer ones / (pi r_k^2),
+/// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside the grid's radius: all of them over its
+/// disc.
 Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading,
                       vec3 to_view) LW_MEMBER {
     float heap_distance[heap_size];
@@ -147,9 +147,9 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
     return sum;
 }
 
-/// The cached mode: blends the irradiance at the corners of the cell, which holds all lamps at their present powers.
-/// The BRDF is applied as for uniform light from all sides.
-Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
+/// The irradiance computed ahead at the corners of the cell, all lamps at their present power; light from all sides
+/// alike for the BRDF.
+Gathered gather_cached(GridPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
     uvec4 corners = cell_light(at.cell);
     vec3 low = mix(unpack_rgb9e5(corners.x), unpack_rgb9e5(corners.y), at.f.x);
     vec3 high = mix(unpack_rgb9e5(corners.z), unpack_rgb9e5(corners.w), at.f.x);
@@ -166,10 +166,10 @@ Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_
     return sum;
 }
 
-/// Radiance towards `to_view` and irradiance at surface `s`, from the photons around the place `at`; zero when that is
-/// on no map. n_geometric and n_shading are on the side of the viewer.
-Gathered gather_photons(MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
-    if (at.map == no_map) return no_light();
+/// Reflected radiance and irradiance at surface `s` from the photons around a place; zero when it is in no grid.
+/// n_geometric and n_shading are turned to the viewer.
+Gathered gather_photons(GridPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
+    if (at.index == no_grid) return no_light();
     if (gather_mode == gather_mode_cached) return gather_cached(at, s, n_shading, to_view);
     if (gather_mode == gather_mode_exact) return gather_exact(at.grid, at.local, s, n_geometric, n_shading, to_view);
     Gathered sum = gather_smooth(at.grid, at.local, s, n_geometric, n_shading, to_view);

@@ -1,125 +1,35 @@
-// Look-ups in the photon map: the patch and cell of a point, the bandwidth from the number of photons around it, and
-// the coverage of a kernel there. One text for C++ and GLSL. The including scope provides the functions grid_at, is_cut
-// (false for no_map), cell_start, node_coverage and the constants neighbours, has_coverage. Needs photon_map.h.
+// Where a point of a surface lies in the photon map, and how much of a kernel there lies on surface. One text for C++
+// and GLSL. The including scope provides the functions grid_at, cut_at, node_coverage and the constant has_coverage,
+// and what grid.glsl needs, which this text includes.
 
-ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
-    return ivec2(int(floor(local.x / grid.cell_size)), int(floor(local.y / grid.cell_size)));
-}
+#include "grid.glsl"
 
-/// First and last reference of the cells [x0, x1] of row y, clipped to the grid.
-uvec2 row_span(SurfaceGrid grid, int x0, int x1, int y) LW_MEMBER {
-    if (y < 0 || y >= int(grid.rows) || x1 < 0 || x0 >= int(grid.columns)) return uvec2(0u, 0u);
-    uint row = grid.first_cell + uint(y) * grid.columns;
-    return uvec2(cell_start(row + uint(max(x0, 0))), cell_start(row + uint(min(x1, int(grid.columns) - 1)) + 1u));
-}
-
-/// True when the window that reaches `ring` cells beyond `cell` on each side covers the whole grid.
-bool covers_grid(SurfaceGrid grid, ivec2 cell, int ring) LW_MEMBER {
-    return cell.x - ring <= 0 && cell.y - ring <= 0 && cell.x + ring >= int(grid.columns) - 1 &&
-           cell.y + ring >= int(grid.rows) - 1;
-}
-
-/// The first ring of cells around `cell` that meets the grid; 0 when the cell is in the grid. Grids of few photons are
-/// small with small cells, so many rings around a point outside would be empty.
-int first_ring(SurfaceGrid grid, ivec2 cell) LW_MEMBER {
-    ivec2 beyond = max(-cell, cell - ivec2(int(grid.columns) - 1, int(grid.rows) - 1));
-    return max(max(beyond.x, beyond.y), 0);
-}
-
-/// The bandwidth, m: the radius of a disc that is expected to hold `neighbours` photons. A window of cells around the
-/// point grows until it holds 1.25 times as many; its area and count give the radius. At most grid.radius.
-float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
-    ivec2 cell = cell_of(local, grid);
-    float wanted = 1.25f * float(neighbours);
-    int last_ring = int(grid.radius / grid.cell_size) + 1;
-    float count = 0.0f;
-    float area = 0.0f;
-    int ring = 0;
-    for (; ring <= last_ring; ++ring) {
-        count = 0.0f;
-        int x0 = max(cell.x - ring, 0);
-        int x1 = min(cell.x + ring, int(grid.columns) - 1);
-        int y0 = max(cell.y - ring, 0);
-        int y1 = min(cell.y + ring, int(grid.rows) - 1);
-        for (int y = y0; y <= y1; ++y) {
-            uvec2 span = row_span(grid, x0, x1, y);
-            count += float(span.y - span.x);
-        }
-        area = float(max(x1 - x0 + 1, 1)) * float(max(y1 - y0 + 1, 1)) * grid.cell_size * grid.cell_size;
-        if (count >= wanted || covers_grid(grid, cell, ring)) break;
-    }
-    if (count < wanted)
-        return grid.radius;  // the grid ends where its photons end, so its area says nothing of their density
-    return clamp(sqrt(float(neighbours) * area / (lw_pi * count)), min(0.5f * grid.cell_size, grid.radius),
-                 grid.radius);
-}
-
-/// The same for a grid of caustics: the radius of a disc that is expected to hold caustic_neighbours photons, m. Grids
-/// of few photons are small with small cells, so the window starts where it meets the grid and grows by an eighth at a
-/// time.
-float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
-    ivec2 cell = cell_of(local, grid);
-    ivec2 last = ivec2(int(grid.columns) - 1, int(grid.rows) - 1);
-    int ring = first_ring(grid, cell);
-    int last_ring = int(grid.radius / grid.cell_size) + 1;
-    if (ring > last_ring) return grid.radius;
-    float count = 0.0f;
-    float area = 0.0f;
-    for (;;) {
-        int x0 = max(cell.x - ring, 0);
-        int x1 = min(cell.x + ring, last.x);
-        int y0 = max(cell.y - ring, 0);
-        int y1 = min(cell.y + ring, last.y);
-        count = 0.0f;
-        for (int y = y0; y <= y1; ++y) {
-            uvec2 span = row_span(grid, x0, x1, y);
-            count += float(span.y - span.x);
-        }
-        area = float(x1 - x0 + 1) * float(y1 - y0 + 1) * grid.cell_size * grid.cell_size;
-        if (count >= 1.25f * caustic_neighbours || ring > last_ring || covers_grid(grid, cell, ring)) break;
-        ring += max(ring / 8, 1);
-    }
-    if (count < 1.0f) return grid.radius;
-    return clamp(sqrt(caustic_neighbours * area / (lw_pi * count)), 0.02f * min(grid.cell_size, grid.radius),
-                 grid.radius);
-}
-
-/// The lower left node of the lattice cell that holds a point. Sets `f` to the place of the point in the cell, 0 to 1
-/// along u and v. Points outside are moved to the border.
-uint cell_node(SurfaceLattice lattice, vec3 local, LW_INOUT(vec2) f) LW_MEMBER {
-    vec2 last = vec2(float(lattice.columns - 1u), float(lattice.rows - 1u));
-    vec2 at = clamp((vec2(local.x, local.y) - lattice.low) / lattice.step, vec2(0.0f), last);
-    vec2 base = min(floor(at), last - 1.0f);
-    f = at - base;
-    return lattice.first_node + uint(base.y) * lattice.columns + uint(base.x);
-}
-
-/// Where a point lies on its patch.
-struct MapPlace {
-    uint map;  // index of the grid, or no_map, when the other members mean nothing
+/// Where a point lies in a grid.
+struct GridPlace {
+    uint index;  // of the grid, or no_grid, then nothing else holds
     SurfaceGrid grid;
     vec3 local;  // u, v, h in the frame of the grid, m
     uint cell;   // lower left node of the cell of the lattice
     vec2 f;      // place in the cell, 0 to 1
 };
 
-/// The grid of a point on a surface whose record is `map`: follows cuts until a grid, or no_map, is reached.
-uint map_at(uint map, vec3 position) LW_MEMBER {
-    while (is_cut(map)) map = behind_cut(grid_at(map), position);
-    return map;
+/// The grid of a point of a surface whose grid or cut is `index`; no_grid where it has none.
+uint behind_cuts(uint index, vec3 position) LW_MEMBER {
+    while (is_cut(index)) index = behind_cut(cut_at(index & ~cut_bit), position);
+    return index;
 }
 
-MapPlace place_on(uint map, vec3 position) LW_MEMBER {
-    MapPlace at;
-    at.map = map_at(map, position);
-    at.grid = grid_at(at.map == no_map ? 0u : at.map);  // any record that exists
+GridPlace place_on_grid(uint index, vec3 position) LW_MEMBER {
+    GridPlace at;
+    at.index = behind_cuts(index, position);
+    at.grid = grid_at(at.index == no_grid ? 0u : at.index);  // anything, but there
     at.local = position_in_grid(at.grid, position);
     at.cell = cell_node(at.grid.lattice, at.local, at.f);
     return at;
 }
 
-/// Coverage of a kernel of `radius` m around a place, interpolated between the nodes; at least min_coverage.
-float coverage_at(MapPlace at, float radius) LW_MEMBER {
+/// Coverage of the kernel of `radius` around a place, between the lattice's nodes.
+float coverage_at(GridPlace at, float radius) LW_MEMBER {
     float fraction = radius / at.grid.radius;
     uint node = at.cell;
     uint above = node + at.grid.lattice.columns;
@@ -130,12 +40,13 @@ float coverage_at(MapPlace at, float radius) LW_MEMBER {
     return max(mix(low, high, at.f.y), min_coverage);
 }
 
-/// The coverage to divide an estimate by; 1 when the map has no coverage.
-float covered_part(MapPlace at, float radius) LW_MEMBER { return has_coverage ? coverage_at(at, radius) : 1.0f; }
+/// The part of the kernel of `radius` around a place that lies on surface light can reach; 1 where the map does not
+/// know.
+float covered_part(GridPlace at, float radius) LW_MEMBER { return has_coverage ? coverage_at(at, radius) : 1.0f; }
 
-/// The same for a kernel of `radius` m on the grid of caustics of that surface. Kernels much smaller than the smallest
-/// for which coverage is known hardly reach a border, so theirs tends to 1.
-float caustic_coverage(MapPlace at, SurfaceGrid caustics, float radius) LW_MEMBER {
-    if (!has_coverage || at.map == no_map) return 1.0f;
+/// The same for a kernel on the grid of caustics of that surface: kernels much smaller than the coverage's least one
+/// hardly reach a border.
+float caustic_coverage(GridPlace at, SurfaceGrid caustics, float radius) LW_MEMBER {
+    if (!has_coverage || at.index == no_grid) return 1.0f;
     return mix(1.0f, coverage_at(at, radius), min(4.0f * radius / caustics.radius, 1.0f));
 }

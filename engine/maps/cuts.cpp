@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <unordered_map>
 
-#include "maps/photon_map.h"
+#include "maps/outline.h"
 #include "maps/wall_lines.h"
 
 namespace lw {
@@ -14,28 +13,6 @@ namespace {
 constexpr float min_piece = 0.1f;  // of the radius: a wall along the border of a patch cuts nothing off
 constexpr size_t max_cuts = 255;
 constexpr int max_cut = max_cuts_deep;
-
-using Outline = std::vector<vec2>;  // convex, counter-clockwise
-
-/// The convex hull of points (monotone chain, Andrew 1979).
-Outline hull_of(Outline points) {
-    std::sort(points.begin(), points.end(), [](vec2 p, vec2 q) { return std::tie(p.x, p.y) < std::tie(q.x, q.y); });
-    Outline hull;
-    for (const bool back : {false, true}) {
-        const size_t first = hull.size();
-        for (const vec2 p : points) {
-            const auto turns_left = [&] {
-                const vec2 a = hull[hull.size() - 2], b = hull.back();
-                return (b.x - a.x) * (p.y - b.y) - (b.y - a.y) * (p.x - b.x) > 0;
-            };
-            while (hull.size() >= first + 2 && !turns_left()) hull.pop_back();
-            hull.push_back(p);
-        }
-        hull.pop_back();  // the other half begins with it
-        if (!back) std::reverse(points.begin(), points.end());
-    }
-    return hull;
-}
 
 /// The outlines of the wanted patches, in their frames.
 std::unordered_map<uint, Outline> outlines_of(const Scene& scene, const Patches& patches,
@@ -85,7 +62,7 @@ float length_inside(const Outline& outline, const WallLine& line, float radius) 
 class Cutter {
   public:
     Cutter(float radius, Patches& patches, std::vector<PatchShape>& shapes)
-        : radius_(radius), patches_(patches), shapes_(shapes), roots_(shapes.size(), no_map) {}
+        : radius_(radius), patches_(patches), shapes_(shapes), roots_(shapes.size(), no_grid) {}
 
     void cut(uint patch, const Outline& outline, const std::vector<WallLine>& lines) {
         whole_ = shapes_[patch];
@@ -93,21 +70,17 @@ class Cutter {
         left_ = max_cuts;
         free_ = patch;
         const uint root = divide(outline, 0);
-        if (root & is_cut) roots_[patch] = root;
+        if (is_cut(root)) roots_[patch] = root;
     }
 
-    /// Numbers the cuts behind all patches.
+    /// Has the sides of the patches that were cut refer to their first cuts.
     void finish() {
         patches_.count = uint(shapes_.size());
-        const auto number = [&](uint id) { return id & is_cut ? patches_.count + (id & ~is_cut) : id; };
-        for (PatchCut& c : patches_.cuts) c.front = number(c.front), c.back = number(c.back);
         for (uint& side : patches_.of_side)
-            if (roots_[side] != no_map) side = number(roots_[side]);
+            if (roots_[side] != no_grid) side = roots_[side];
     }
 
   private:
-    static constexpr uint is_cut = 1u << 31;
-
     uint divide(const Outline& outline, int depth) {
         const WallLine* best = nullptr;
         float most = 0.02f * radius_;
@@ -120,11 +93,11 @@ class Cutter {
         const auto index = uint(patches_.cuts.size());
         const vec3 up = whole_.v_axis * best->along.x - whole_.u_axis * best->along.y;
         const vec3 point = whole_.anchor + whole_.u_axis * best->point.x + whole_.v_axis * best->point.y;
-        patches_.cuts.push_back({point, up, 0, 0});
+        patches_.cuts.push_back({point, no_grid, up, no_grid});
         const uint front = divide(part_of(outline, *best, 1), depth + 1);
         const uint back = divide(part_of(outline, *best, -1), depth + 1);
         patches_.cuts[index].front = front, patches_.cuts[index].back = back;
-        return index | is_cut;
+        return index | cut_bit;
     }
 
     /// The first piece takes the place of the whole.
@@ -142,9 +115,9 @@ class Cutter {
             }
         }
         piece.low = vec3(low, whole_.low.z), piece.high = vec3(high, whole_.high.z);
-        const uint id = free_ != no_map ? free_ : uint(shapes_.size());
-        if (free_ == no_map) shapes_.emplace_back();
-        free_ = no_map;
+        const uint id = free_ != no_grid ? free_ : uint(shapes_.size());
+        if (free_ == no_grid) shapes_.emplace_back();
+        free_ = no_grid;
         shapes_[id] = std::move(piece);
         return id;
     }
@@ -156,7 +129,7 @@ class Cutter {
     PatchShape whole_;
     const std::vector<WallLine>* lines_ = nullptr;
     size_t left_ = 0;
-    uint free_ = no_map;
+    uint free_ = no_grid;
 };
 
 }  // namespace
@@ -169,28 +142,6 @@ void cut_patches(const Scene& scene, float radius, Patches& patches, std::vector
     for (const auto& [patch, lines] : walled)
         if (outlines.at(patch).size() > 2) cutter.cut(patch, outlines.at(patch), lines);
     cutter.finish();
-}
-
-vec2 nearest_in_outline(const std::vector<vec2>& outline, vec2 p) {
-    vec2 nearest = p;
-    float least = 1e30f;
-    bool inside = true;
-    for (size_t i = 0; i < outline.size(); ++i) {
-        const vec2 a = outline[i], edge = outline[(i + 1) % outline.size()] - a;
-        inside = inside && edge.x * (p.y - a.y) - edge.y * (p.x - a.x) >= 0;
-        const vec2 on_edge = a + edge * clamp(dot(p - a, edge) / std::max(dot(edge, edge), 1e-30f), 0.0f, 1.0f);
-        if (const float d2 = dot(p - on_edge, p - on_edge); d2 < least) least = d2, nearest = on_edge;
-    }
-    return inside ? p : nearest;
-}
-
-vec2 inside_outline(const std::vector<vec2>& outline, vec2 p, float distance) {
-    for (size_t i = 0; i < outline.size(); ++i) {
-        const vec2 a = outline[i], edge = outline[(i + 1) % outline.size()] - a;
-        const vec2 inwards = vec2(-edge.y, edge.x) / std::max(length(edge), 1e-20f);
-        p += inwards * std::max(0.0f, distance - dot(p - a, inwards));
-    }
-    return p;
 }
 
 }  // namespace lw

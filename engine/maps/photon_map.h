@@ -1,6 +1,5 @@
 // The photon maps of a scene as plain arrays, in the layout that the file and the GPU share (shaders/photon_map.h).
 #pragma once
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -13,32 +12,61 @@ namespace lw {
 struct BakeSettings {
     uint64_t photons = 1'000'000;    // stored photons asked for
     float radius = 0;                // m, largest search radius; 0 in the settings means automatic
-    float neighbour_angle_deg = 60;  // largest angle between the normals of a photon and a map that refers to it
+    float neighbour_angle_deg = 60;  // largest angle between the normals of a photon and a patch that refers to it
     uint64_t seed = 1;
     bool direct_in_photons = false;  // direct light: from photons as in the paper, or exact by shadow rays
 };
 
-/// References to photons, sorted by map and cell. All record arrays have one entry per reference.
-/// Flux is for intensity 1 of the photon's light (lm per cd, per lx or per cd/m2), times flux_scale in the record.
-struct PhotonMap {
-    uint64_t scene_hash = 0;
-    BakeSettings settings;  // with the radius that was used
-    uint64_t stored_photons = 0;
-    float flux_scale = 1;              // record flux = flux * flux_scale, keeps RGB9E5 in range
-    std::vector<uint64_t> emitted;     // photons emitted per light
-    std::vector<uint> triangle_maps;   // 2 per triangle: map of the front side, of the back side, or no_map
-    SparseArray caustic_sides;         // when there are caustics, 2 per triangle: their map + 1, or 0
-    std::vector<SurfaceGrid> grids;    // per map, then the cuts; those of caustics come last and have no lattice
-    uint caustic_grids = 0;            // how many those are; their photons (path_caustic) are in no other map
-    std::vector<uint> cell_starts;     // cells of all maps + 1
+/// The photon grids of the patches of a scene, and which of them each side of a triangle lies in.
+struct SurfaceGrids {
+    std::vector<uint> grid_of_side;  // 2 per triangle: grid or cut of the front side, of the back side, or no_grid
+    std::vector<SurfaceGrid> grids;  // one per patch
+    std::vector<Cut> cuts;           // each before those it leads to
+
+    /// Calls visit(grid) for every grid in which points of a surface lie whose grid or cut is `index`.
+    template <class Visit>
+    void for_each_grid(uint index, const Visit& visit) const {
+        if (index == no_grid) return;
+        if (!is_cut(index)) return visit(index);
+        const Cut& cut = cuts[index & ~cut_bit];
+        for_each_grid(cut.front, visit);
+        for_each_grid(cut.back, visit);
+    }
+
+    /// The grid of a point of a surface whose grid or cut is `index`; no_grid where it has none.
+    uint behind_cuts(uint index, vec3 position) const {
+        while (is_cut(index)) index = behind_cut(cuts[index & ~cut_bit], position);
+        return index;
+    }
+};
+
+/// References to photons, sorted by grid and cell: those of cell c are entries cell_starts[c] .. cell_starts[c + 1] - 1
+/// of the record arrays. Flux is for intensity 1 of the photon's light: lm per cd, per lx or per cd/m2.
+struct PhotonRecords {
+    std::vector<uint> cell_starts;     // cells of all grids + 1
     std::vector<PhotonPlace> places;   // 8 bytes per reference
     std::vector<uint> fluxes;          // RGB9E5 per reference
     std::vector<uint16_t> directions;  // octahedral direction the photon came from; empty without glossy surfaces
+    float flux_scale = 1;              // record flux = flux * flux_scale, keeps RGB9E5 in range
 
-    std::vector<uint> coverage;  // per node of the lattices of all maps, see unpack_coverage()
-    std::vector<uint>
-        visible_lamps;       // which lamps the nodes see, see visibility_words(); empty when photons hold all light
-    SparseArray irradiance;  // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
+    bool has_directions() const { return !directions.empty(); }
+};
+
+/// The photon map of a scene: grids, those of caustics last and without lattices, the photons in their cells, and what
+/// the nodes of the lattices keep.
+struct PhotonMap : SurfaceGrids, PhotonRecords {
+    uint64_t scene_hash = 0;
+    BakeSettings settings;  // with the radius that was used
+    uint64_t stored_photons = 0;
+    std::vector<uint64_t> emitted;  // photons emitted per light
+    SparseArray caustic_sides;      // when there are caustics, 2 per triangle: their grid or cut + 1, or 0
+    uint caustic_grids = 0;         // how many of the grids; their photons (path_caustic) are in no other grid
+    uint caustic_cuts = 0;          // how many of the cuts, the last ones
+
+    std::vector<uint> coverage;       // per node of all lattices, see unpack_coverage()
+    std::vector<uint> visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all
+                                      // light
+    SparseArray irradiance;           // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
     float irradiance_scale = 1;
     std::vector<uint> smooth_caustics;     // a bit per node: its irradiance holds caustics; empty without caustics, and
                                            // when photons hold all light
@@ -47,41 +75,18 @@ struct PhotonMap {
     /// All arrays together.
     uint64_t bytes() const {
         const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
-        return size(triangle_maps, grids, cell_starts, places, fluxes, directions, coverage, visible_lamps,
+        return size(grid_of_side, grids, cuts, cell_starts, places, fluxes, directions, coverage, visible_lamps,
                     smooth_caustics, shadow_masks) +
                caustic_sides.bytes() + irradiance.bytes();
     }
 
-    /// Calls visit(map) for every map in which points of a surface lie whose map is `index`: itself, or those behind
-    /// its cuts.
-    template <class Visit>
-    void for_each_map(uint index, const Visit& visit) const {
-        if (index == no_map) return;
-        if (grids[index].columns > 0) return visit(index);
-        for_each_map(grids[index].rows, visit);
-        for_each_map(grids[index].first_cell, visit);
-    }
-
-    /// The map of a point of a surface whose map is `index`.
-    uint map_at(uint index, vec3 position) const {
-        while (index != no_map && grids[index].columns == 0) index = behind_cut(grids[index], position);
-        return index;
-    }
-
-    /// The map of caustics of a side of a triangle, 2 per triangle, or no_map; only where there are caustics.
-    uint caustic_map_of(size_t side) const { return caustic_sides[side] - 1u; }
-    bool has_directions() const { return !directions.empty(); }
+    /// The grid or cut of caustics of a side of a triangle, 2 per triangle, or no_grid; only where there are caustics.
+    uint caustic_grid_of(size_t side) const { return caustic_sides[side] - 1u; }
     bool holds_caustics(size_t node) const {
         return !smooth_caustics.empty() && ((smooth_caustics[node / 32] >> (node % 32)) & 1u);
     }
     /// True when cells know more than their lamps, see cell_words().
     bool has_marks() const { return !smooth_caustics.empty() || !shadow_masks.empty(); }
-    /// The first cut among the grids [first, last), whose maps come before their cuts; no_map without any.
-    uint first_cut(uint first, uint last) const {
-        const auto is_cut = [](const SurfaceGrid& grid) { return grid.columns == 0; };
-        const auto cut = std::find_if(grids.begin() + first, grids.begin() + last, is_cut);
-        return cut == grids.begin() + last ? no_map : uint(cut - grids.begin());
-    }
     bool has_coverage() const { return !coverage.empty(); }
     bool has_visible_lamps() const { return !visible_lamps.empty(); }
 };

@@ -27,7 +27,7 @@ struct EvenPhotons {
         map.settings.radius = grid.radius;
         map.flux_scale = 1;
         map.grids = {grid};
-        map.triangle_maps.assign(2 * scene.triangles.size(), 0);
+        map.grid_of_side.assign(2 * scene.triangles.size(), 0);
         const uint step = 65536 / side;
         for (uint row = 0; row < grid.rows; ++row)
             for (uint column = 0; column < grid.columns; ++column) {
@@ -69,7 +69,7 @@ TEST(Sums, OfSixtyFourMillionEqualPhotonsAreTheirFluxOverTheirArea) {
 TEST(Sums, OfSixteenMillionEqualPhotonsAtALatticeNodeDoNotDrift) {
     const EvenPhotons even(4096);
     const SurfaceGrid& grid = even.map.grids[0];
-    const PhotonSums photons(even.map, grid);
+    const PhotonSums photons(even.map, grid, even.map.settings.radius);
     std::vector<vec4> parts(PhotonSums::sums_per_lamp, vec4(0));
     photons.add(vec3(2, 2, 0), grid.radius, parts);
     double sum = 0;
