@@ -13,11 +13,11 @@ Gathered no_light() LW_MEMBER {
     return nothing;
 }
 
-/// True for a photon that no followed ray can stand for: a ray may meet a mirrored mesh lamp, but no mirrored point or
-/// sun.
+/// True for a photon of a caustic whose light no followed ray can bring: a ray may meet a mirrored light only if it
+/// has a surface.
 bool is_unseen_by_rays(Surface s, PhotonPlace photon) LW_MEMBER {
     if (!has_caustics || path_of(photon) != path_caustic || s.roughness * s.roughness < min_alpha) return false;
-    return light_at(light_of(photon)).type != light_mesh;
+    return !has_surface(light_at(light_of(photon)).type);
 }
 
 /// True where rays bring what the specular lobe reflects, so that estimates have to leave it out.

@@ -33,7 +33,7 @@ class NodeLight {
           emitters_(scene),
           lamps_(uint(scene.lights.size())),
           has_meshes_(std::any_of(scene.lights.begin(), scene.lights.end(),
-                                  [](const Light& lamp) { return lamp.type == light_mesh; })) {}
+                                  [](const Light& lamp) { return !is_delta(lamp.type); })) {}
 
     /// Writes light[lamp * all nodes + node] for the nodes of map m.
     void light_map(uint m, std::vector<vec3>& light) const {
@@ -109,7 +109,7 @@ class NodeLight {
             buried[i] = is_buried(caster_, s.position, n, clearance_of(map_.settings.radius), rng);
             if (buried[i]) continue;
             for (uint lamp = 0; lamp < lamps_; ++lamp)
-                if (scene_.lights[lamp].type == light_mesh)
+                if (!is_delta(scene_.lights[lamp].type))
                     direct[size_t(i) * lamps_ + lamp] = direct_of_mesh(lamp, node, s.position, n);
         }
         for (uint i = 0; i < count; ++i) {
