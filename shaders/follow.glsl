@@ -224,11 +224,10 @@ bool is_looked_through(Seen seen) LW_MEMBER {
 /// The weight of the glow of a surface that a ray met, where the same light is found by samples of its lamp too (power
 /// heuristic).
 float share_of_ray(Surface s, ViewRay ray) LW_MEMBER {
-    if (!has_mesh_lamps || s.light < 0 || ray.pdf <= 0.0f) return 1.0f;
+    if (!has_area_lamps || s.light < 0 || ray.pdf <= 0.0f) return 1.0f;
     Light lamp = light_at(uint(s.light));
-    if (lamp.type != light_mesh) return 1.0f;
     float by_samples =
-        float(max(shadow_rays, 1u)) * point_pdf(lamp, ray.distance, dot(s.geometric_normal, ray.direction));
+        float(max(shadow_rays, 1u)) * light_pdf(lamp, ray.distance, dot(s.geometric_normal, ray.direction));
     float by_rays = float(lobe_paths) * ray.pdf;
     return by_rays * by_rays / max(by_rays * by_rays + by_samples * by_samples, 1e-30f);
 }

@@ -13,8 +13,8 @@ LW_CONSTANT(bool, has_emissive_textures, true)
 LW_CONSTANT(bool, has_transmission_textures, true)
 LW_CONSTANT(bool, has_alpha, true)         // masks or blends
 LW_CONSTANT(bool, has_transmission, true)  // glass
-LW_CONSTANT(bool, has_mesh_lamps, true)
-LW_CONSTANT(bool, has_profiles, true)  // lamps with a photometric file
+LW_CONSTANT(bool, has_area_lamps, true)    // lamps that are not delta lights
+LW_CONSTANT(bool, has_profiles, true)      // lamps with a photometric file
 // What the map has.
 LW_CONSTANT(bool, has_directions, true)  // of photons
 LW_CONSTANT(bool, has_coverage, true)

@@ -17,7 +17,7 @@ Gathered no_light() LW_MEMBER {
 /// but no mirrored points; so the estimate keeps its specular part.
 bool is_unseen_by_rays(Surface s, PhotonPlace photon) LW_MEMBER {
     if (!has_caustics || path_of(photon) != path_caustic || s.roughness * s.roughness < min_alpha) return false;
-    return light_at(light_of(photon)).type != light_mesh;
+    return !has_surface(light_at(light_of(photon)).type);
 }
 
 /// True where followed rays bring the light of the specular lobe, so that estimates must leave it out.

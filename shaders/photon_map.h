@@ -122,6 +122,17 @@ struct ShadowMask {
     uint tint;
 };
 LW_CONST uint shadow_mask_side = 8u;
+LW_CONST uint shadow_mask_rows = 4u;  // of a word
+/// The first point of every row of a word.
+LW_CONST uint shadow_mask_column = 0x01010101u;
+/// The points of rows `first` to `last` of a word whose rows are 0 to 3; rows beyond the word are left out.
+LW_INLINE uint shadow_mask_row_bits(int first, int last) {
+    int rows = int(shadow_mask_rows);
+    uint begin = uint(clamp(first, 0, rows));
+    uint end = uint(clamp(last + 1, 0, rows));
+    if (begin >= end) return 0u;
+    return (0xffffffffu << (shadow_mask_side * begin)) & (0xffffffffu >> (shadow_mask_side * (shadow_mask_rows - end)));
+}
 
 /// Where a referenced photon lies in its grid, and which light it came from (8 bytes).
 struct PhotonPlace {

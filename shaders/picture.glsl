@@ -141,6 +141,7 @@ Light light_at(uint i) { return lights[i]; }
 #include "rays.glsl"
 #endif
 #include "profile.glsl"
+#include "lights.glsl"
 #include "direct.glsl"
 #include "shade.glsl"
 #include "follow.glsl"

@@ -2,6 +2,7 @@
 // Metres, right-handed, Y up; linear Rec. 709; photometric: candela, lux, cd/m2.
 #ifndef LW_SCENE_H
 #define LW_SCENE_H
+#include "light.h"
 #include "types.h"
 #ifdef __cplusplus
 namespace lw {
@@ -75,28 +76,6 @@ struct Object {
     int light;  // the light whose mesh this is, or -1
 };
 
-/// A lamp the user can dim. `intensity` is its RGB power in its own unit; photons are stored for intensity 1.
-struct Light {
-    uint type;
-    vec3 intensity;
-    vec3 position;
-    vec3 direction;  // unit, the way light travels (spot axis, directional)
-    float cos_inner;
-    float cos_outer;
-    uint first_emitter;  // range in the list of emissive triangles (mesh lights)
-    uint emitter_count;
-    float area;    // m2 of emissive surface, both sides counted when double-sided
-    vec3 across;   // unit, C0 of the table; `direction` is its aim (profile lights)
-    uint profile;  // first word of the table in the array of texels, see profile.glsl
-};
-
-/// A triangle of an emissive mesh. Points on a lamp are picked by area: area_below is that of this and all earlier
-/// triangles of the lamp, m2, one side.
-struct Emitter {
-    uint triangle;
-    float area_below;
-};
-
 /// The cross product of two edges of a triangle: along the normal of its front, as long as twice its area.
 LW_INLINE vec3 edge_product(vec3 a, vec3 b, vec3 c) { return cross(b - a, c - a); }
 
@@ -125,7 +104,7 @@ struct Surface {
 #ifdef __cplusplus
 static_assert(sizeof(TextureSlot) == 32 && sizeof(Texture) == 28);
 static_assert(sizeof(Material) == 84 + 5 * 32 && offsetof(Material, base_color_texture) == 84);
-static_assert(sizeof(Object) == 8 && sizeof(Emitter) == 8 && sizeof(Light) == 76 && offsetof(Light, profile) == 72);
+static_assert(sizeof(Object) == 8);
 }  // namespace lw
 #endif
 #endif

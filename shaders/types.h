@@ -17,6 +17,9 @@ using uint = uint32_t;
 #define LW_INLINE inline
 #define LW_MEMBER const
 #define LW_INOUT(T) T&
+// A list of values between LW_ENUM(TypeName) and LW_ENUM_END; is an enumeration, in GLSL constants.
+#define LW_ENUM(NAME) enum NAME : uint {
+#define LW_ENUM_END }
 #else
 #define LW_CONST const
 #define LW_INLINE
@@ -24,6 +27,8 @@ using uint = uint32_t;
 #define LW_INOUT(T) inout T
 // A row of frame_constants.h or view_constants.h.
 #define LW_CONSTANT(type, name, value) layout(constant_id = __LINE__) const type name = value;
+#define LW_ENUM(NAME) const uint
+#define LW_ENUM_END
 #endif
 #ifdef __cplusplus
 namespace lw {

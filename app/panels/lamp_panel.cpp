@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/panels/panels.h"
+#include "scene/light.h"
 
 namespace lw {
 namespace {
@@ -29,7 +30,8 @@ bool draw_dimmer(const char* label, float& dimmer) {
 
 std::string power_of(const Session& s, size_t i) {
     const auto luminaire = s.world.luminaires.find(i);
-    const float flux = luminaire == s.world.luminaires.end() ? 0 : luminaire->second.unit_flux;
+    const float flux = luminaire == s.world.luminaires.end() ? unit_flux(s.world.scene, s.world.scene.lights[i])
+                                                             : luminaire->second.unit_flux;
     const LampState& lamp = s.lighting.board[i];
     return power_text(s.world.scene.lights[i], lamp.on ? lamp.dimmer : 0, flux);
 }

@@ -81,7 +81,7 @@ int lamp_at(const Session& s, vec2 pixel, vec2 size) {
     int nearest = -1;
     float best = pick_reach;
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        if (scene.lights[i].type == light_mesh || scene.lights[i].type == light_directional) continue;
+        if (!is_at_point(scene.lights[i].type)) continue;
         const std::optional<vec2> at = screen_position(s, scene.lights[i].position, size);
         if (!at || length(*at - pixel) >= best) continue;
         best = length(*at - pixel);
@@ -169,7 +169,7 @@ void draw_lamp_marks(const Session& s) {
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const bool selected = s.lighting.selected == int(i);
-        if (scene.lights[i].type == light_directional || (scene.lights[i].type == light_mesh && !selected)) continue;
+        if (comes_from_outside(scene.lights[i].type) || (!is_at_point(scene.lights[i].type) && !selected)) continue;
         const std::optional<vec2> at = screen_position(s, scene.lights[i].position, display());
         if (!at) continue;
         const ImU32 color = selected ? IM_COL32(255, 190, 60, 255) : IM_COL32(255, 255, 255, 150);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/panels/panels.h"
+#include "scene/light.h"
 
 namespace lw {
 namespace {
@@ -80,7 +81,7 @@ void draw_photometry_section(Session& s) {
     if (s.lighting.selected < 0) return;
     const auto lamp = size_t(s.lighting.selected);
     const Light& light = s.world.scene.lights[lamp];
-    if (light.type == light_mesh || light.type == light_directional) return;
+    if (!is_at_point(light.type)) return;
     const std::string& name = s.world.scene.light_names[lamp];
     if (!ImGui::CollapsingHeader(("Light distribution: " + name + "###distribution").c_str())) return;
     const auto known = s.world.luminaires.find(lamp);
@@ -93,7 +94,7 @@ void draw_photometry_section(Session& s) {
         ImGui::SameLine();
         ImGui::TextColored(ImVec4(0.47f, 0.67f, 1, 1), "C90 - C270");
     } else {
-        ImGui::TextDisabled(light.type == light_spot ? "a spot of the scene file" : "the same on all sides");
+        ImGui::TextDisabled("%s", distribution_text(light.type));
     }
     draw_choice(s, lamp);
     if (s.lighting.book.photometry.contains(name) && ImGui::Button("take the file off")) attach_file(s, lamp, "");

@@ -4,26 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "scene/light.h"
 #include "shaders/color.h"
 
 namespace lw {
-namespace {
-
-/// Luminous flux per unit of intensity, lm; 0 for directional light, whose flux depends on the scene.
-float unit_flux(const Light& light) {
-    switch (light.type) {
-        case light_point:
-            return 4 * lw_pi;
-        case light_spot:
-            return 2 * lw_pi * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
-        case light_mesh:
-            return lw_pi * light.area;
-        default:
-            return 0;
-    }
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<vec3> factors_of(const LampBoard& board) {
     const bool any_solo = std::any_of(board.begin(), board.end(), [](const LampState& l) { return l.solo; });
@@ -66,18 +51,14 @@ std::vector<vec3> mixed(const std::vector<vec3>& from, const std::vector<vec3>& 
     return factors;
 }
 
-const char* unit_of(const Light& light) {
-    return light.type == light_directional ? "lx" : light.type == light_mesh ? "cd/m2" : "cd";
-}
-
-std::string power_text(const Light& light, float dimmer, float profile_flux) {
+std::string power_text(const Light& light, float dimmer, float unit_flux) {
     const float intensity = luminance(light.intensity) * dimmer;
     char text[64];
-    const float lumens = (light.type == light_profile ? profile_flux : unit_flux(light)) * intensity;
-    if (lumens > 0)
-        std::snprintf(text, sizeof text, "%.4g %s, %.4g lm", double(intensity), unit_of(light), double(lumens));
+    const float lumens = unit_flux * intensity;
+    if (lumens > 0 && !comes_from_outside(light.type))
+        std::snprintf(text, sizeof text, "%.4g %s, %.4g lm", double(intensity), unit_of(light.type), double(lumens));
     else
-        std::snprintf(text, sizeof text, "%.4g %s", double(intensity), unit_of(light));
+        std::snprintf(text, sizeof text, "%.4g %s", double(intensity), unit_of(light.type));
     return text;
 }
 

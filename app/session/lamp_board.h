@@ -26,10 +26,7 @@ LampBoard with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vecto
 std::vector<vec3> mixed(const std::vector<vec3>& from, const std::vector<vec3>& to, float t);
 
 /// Text of a lamp's power in its own unit at a dimmer: "95.49 cd, 1200 lm", "250 cd/m2, 283 lm", "10000 lx".
-/// `profile_flux`: lm per candela of a lamp with a light distribution.
-std::string power_text(const Light& light, float dimmer, float profile_flux = 0);
-
-/// The unit of the intensity of a lamp: cd, lx or cd/m2.
-const char* unit_of(const Light& light);
+/// `unit_flux`: lm per unit intensity, as unit_flux() of scene/light.h gives it.
+std::string power_text(const Light& light, float dimmer, float unit_flux);
 
 }  // namespace lw

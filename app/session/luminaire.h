@@ -17,7 +17,7 @@ struct Luminaire {
 std::map<size_t, Luminaire> luminaires_of(const Scene& scene, const std::vector<std::string>& photometry);
 
 /// The intensity of a lamp relative to its strongest, 0 to 1, at `gamma_deg` degrees from its aim and `c_deg` degrees
-/// around it (C). The lamp must be a light_profile.
+/// around it (C). The lamp must be one that has_table().
 float share_of_profile(const Scene& scene, const Light& light, float gamma_deg, float c_deg);
 
 }  // namespace lw

@@ -90,9 +90,10 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     constants_.has_caustics = map.caustic_grids > 0;
     constants_.has_smooth_caustics = !map.smooth_caustics.empty();
     constants_.has_shadow_masks = !map.shadow_masks.empty();
-    constants_.has_mesh_lamps = !scene.emitters.empty();
-    constants_.has_profiles = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                          [](const Light& light) { return light.type == light_profile; });
+    constants_.has_area_lamps =
+        std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) { return !is_delta(light.type); });
+    constants_.has_profiles =
+        std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) { return has_table(light.type); });
     constants_.has_metallic_roughness_textures = any_texture(scene, &Material::metallic_roughness_texture);
     constants_.has_emissive_textures = any_texture(scene, &Material::emissive_texture);
     constants_.has_transmission_textures = any_texture(scene, &Material::transmission_texture);

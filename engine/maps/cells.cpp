@@ -18,16 +18,10 @@ constexpr float max_direct = 4096;   // of a record; RGB9E5 goes to 65408
 /// lux at a point facing `normal` from a lamp of intensity 1, if nothing stands between; falloff as
 /// KHR_lights_punctual.
 float unshadowed(const Light& light, vec3 position, vec3 normal) {
-    if (light.type == light_directional) return std::max(0.0f, -dot(light.direction, normal));
+    if (comes_from_outside(light.type)) return std::max(0.0f, -dot(light.direction, normal));
     const vec3 path = light.position - position;
     const float d2 = std::max(dot(path, path), 1e-30f), cosine = dot(path, normal) / std::sqrt(d2);
     return std::max(0.0f, cosine) / d2;
-}
-
-/// Cosine from a spot's axis to a point.
-float cosine_to_axis(const Light& light, vec3 position) {
-    const vec3 path = position - light.position;
-    return dot(path, light.direction) / std::max(length(path), 1e-30f);
 }
 
 std::array<uint, 4> corners_of(const SurfaceLattice& lattice, uint node) {
@@ -57,8 +51,7 @@ CellLight::CellLight(const Scene& scene, const PhotonMap& map)
     if (!map.has_visible_lamps()) return;
     words_.assign(map.coverage.size() * stride_, 0);
     for (uint lamp = 0; lamp < lamp_count_; ++lamp)
-        if (scene.lights[lamp].type != light_mesh && scene.lights[lamp].type != light_profile)
-            punctual_.push_back(lamp);
+        if (is_linear_in_cells(scene.lights[lamp].type)) punctual_.push_back(lamp);
     direct_.assign(punctual_.size(), std::vector<float>(map.coverage.size(), 0));
     const PlaneGrids planes(scene, map);
     parallel_for(map.grids.size(), [&](size_t m) { describe_cells(map.grids[m]); });
@@ -99,7 +92,7 @@ void CellLight::describe(const ShadowMask& mask) {
 
 uint CellLight::describe(const SurfaceLattice& lattice, uint node, uint lamp) const {
     const uint words = visibility_words(lamp_count_);
-    uint bits = scene_.lights[lamp].type == light_mesh ? in_cell_light : 0;
+    uint bits = is_delta(scene_.lights[lamp].type) ? 0 : in_cell_light;
     const std::array<uint, 4> corners = corners_of(lattice, node);
     for (uint c = 0; c < 4; ++c) {
         const uint seen = map_.visible_lamps[corners[c] * words + visibility_word(lamp)] >> visibility_shift(lamp);
@@ -112,12 +105,12 @@ uint CellLight::describe(const SurfaceLattice& lattice, uint node, uint lamp) co
 /// True when the light of a lamp that all of a cell sees is as good as linear between its corners.
 bool CellLight::is_even(const SurfaceGrid& grid, uint node, uint lamp, float height) const {
     const Light& light = scene_.lights[lamp];
-    if (light.type == light_directional) return true;
+    if (comes_from_outside(light.type)) return true;
     const float step = std::max(grid.lattice.step.x, grid.lattice.step.y);
     for (uint corner : corners_of(grid.lattice, node)) {
         const vec3 position = node_position(grid, corner, height);
         if (length(light.position - position) < even_distance * step) return false;
-        if (light.type == light_spot && cosine_to_axis(light, position) < light.cos_inner) return false;
+        if (!is_fully_lit(light, position)) return false;
     }
     return true;
 }

@@ -93,6 +93,8 @@ class GatherText : public SurfaceReader {
 #include "shaders/rays.glsl"
 
 #include "shaders/caustics.glsl"
+#include "shaders/lights.glsl"
+
 #include "shaders/direct.glsl"
 
 #include "shaders/shade.glsl"
@@ -123,7 +125,7 @@ class GatherText : public SurfaceReader {
     bool has_shadow_rays;
     float followed_roughness;
     static constexpr uint heap_size = max_exact_neighbours, lobe_paths = 1;
-    static constexpr bool has_mesh_lamps = true, has_profiles = true;
+    static constexpr bool has_area_lamps = true, has_profiles = true;
 
     const Scene& scene_;
     const PhotonMap& map_;

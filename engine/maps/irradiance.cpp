@@ -114,7 +114,7 @@ class NodeLight {
             buried[i] = is_buried(caster_, s.position, n, clearance_of(max_radius_), rng);
             if (buried[i]) continue;
             for (uint lamp = 0; lamp < lamps_; ++lamp)
-                if (scene_.lights[lamp].type == light_mesh)
+                if (!is_delta(scene_.lights[lamp].type))
                     direct[size_t(i) * lamps_ + lamp] = direct_of_mesh(lamp, node, s.position, n);
         }
         for (uint i = 0; i < count; ++i) {

@@ -37,7 +37,7 @@ class MaskRays {
         for (uint y = 0; y + 1 < lattice.rows; ++y)
             for (uint x = 0; x + 1 < lattice.columns; ++x)
                 for (uint lamp = 0; lamp < scene_.lights.size(); ++lamp)
-                    if (scene_.lights[lamp].type != light_mesh)
+                    if (is_delta(scene_.lights[lamp].type))
                         if (const auto mask = find_mask(m, x, y, lamp)) masks.push_back(*mask);
         return masks;
     }

@@ -24,7 +24,7 @@ class LampRays {
     /// The bits of one lamp at a receiver.
     uint look(uint lamp, const Receiver& receiver, Rng& rng) const {
         uint bits = 0;
-        const int rays = scene_.lights[lamp].type == light_mesh ? rays_to_mesh : 1;
+        const int rays = is_delta(scene_.lights[lamp].type) ? 1 : rays_to_mesh;
         for (int i = 0; i < rays; ++i) {
             const float u = (float(i) + rng.next()) / float(rays);
             bits |= look_at(emitters_.arrive(lamp, receiver.position, u, rng.next()), receiver);

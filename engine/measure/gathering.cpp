@@ -40,7 +40,7 @@ void Gatherer::add_emission(const Surface& s, vec3 to_view, float weight, Gather
 void Gatherer::add_lamps(const Seen& at, LampChoice choice, Gathering& to) const {
     const Surface& s = at.surface;
     for (uint lamp = 0; lamp < scene_.lights.size(); ++lamp) {
-        if (scene_.lights[lamp].type == light_mesh && choice == LampChoice::without_meshes) continue;
+        if (has_surface(scene_.lights[lamp].type) && choice == LampChoice::without_meshes) continue;
         const float u = to.rng.next(), v = to.rng.next();
         const std::optional<Incident> in = emitters_.arrive(lamp, s.position, u, v);
         if (!in || dot(in->to_light, at.n_geometric) <= 0 || dot(in->to_light, at.n_shading) <= 0) continue;
@@ -66,7 +66,7 @@ void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered,
     const vec3 diffuse = surfaces_.eval_brdf(s, at.n_shading, at.to_view, at.n_shading, true);
     maps_.visit_photons(grid, position_in_grid(grid, s.position), radius, [&](uint i, PhotonPlace place, float d2) {
         const uint lamp = light_of(place);
-        if (!with_meshes && scene_.lights[lamp].type == light_mesh) return;
+        if (!with_meshes && has_surface(scene_.lights[lamp].type)) return;
         vec3 f = diffuse;
         if (map_.has_directions()) {
             const vec3 from = unpack_direction(map_.directions[i]);

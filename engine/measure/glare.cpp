@@ -36,7 +36,7 @@ std::vector<GlareSource> find_visible_lamps(const Scene& scene, const RayCaster&
     const vec3 forward = -camera.rotation[2];
     std::vector<GlareSource> found;
     for (uint lamp = 0; lamp < scene.lights.size(); ++lamp) {
-        if (scene.lights[lamp].type != light_mesh) continue;
+        if (!has_surface(scene.lights[lamp].type)) continue;
         GlareSource source{lamp, 0, 0, vec3(0)};
         for (uint i = 0; i < samples; ++i) {
             const auto in = emitters.arrive(lamp, camera.position, sobol_owen(i, 0, lamp), sobol_owen(i, 1, lamp));

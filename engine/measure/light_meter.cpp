@@ -66,7 +66,7 @@ std::vector<float> LightMeter::correlation_of_paths(const Scene& scene, const Ph
 
 /// Direct light of a lamp at a sensor, lux for intensity 1, RGB.
 vec3 LightMeter::direct(uint lamp, const Sensor& sensor, uint samples, uint32_t scramble) const {
-    if (scene_.lights[lamp].type != light_mesh) samples = 1;
+    if (is_delta(scene_.lights[lamp].type)) samples = 1;
     vec3 sum(0);
     for (uint i = 0; i < samples; ++i) {
         const auto in =
@@ -134,7 +134,7 @@ void LightMeter::add_caustic_on(const Sensor& sensor, PhotonShares& shares, Read
                     peak = kernel_peak(r2) * (1 / map_.flux_scale) / maps.caustic_coverage(at, grid, radius);
         maps.visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
             const uint lamp = light_of(place);
-            if (scene_.lights[lamp].type == light_mesh) return;
+            if (has_surface(scene_.lights[lamp].type)) return;
             const ChannelLux lux =
                 gatherer_.file_lux(lamp, unpack_rgb9e5(map_.fluxes[i]) * (peak * kernel_shape(d2 / r2)));
             lamps[lamp] += lux;
@@ -207,7 +207,7 @@ double share_of_caustics(const Scene& scene, const PhotonMap& map) {
         const Light& lamp = scene.lights[light_of(map.places[i])];
         const double lumen = double(luminance(unpack_rgb9e5(map.fluxes[i]) * lamp.intensity));
         all += lumen;
-        if (path_of(map.places[i]) == path_caustic && lamp.type != light_mesh) caustic += lumen;
+        if (path_of(map.places[i]) == path_caustic && !has_surface(lamp.type)) caustic += lumen;
     }
     return all > 0 ? caustic / all : 0;
 }

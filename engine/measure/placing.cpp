@@ -132,8 +132,7 @@ bool is_near_border(const SurfaceReader& surfaces, const RayCaster& caster, cons
 
 bool is_at_lamp(const Scene& scene, const Sensor& sensor) {
     return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& lamp) {
-        return lamp.type != light_mesh && lamp.type != light_directional &&
-               length(lamp.position - sensor.position) < lamp_within;
+        return is_at_point(lamp.type) && length(lamp.position - sensor.position) < lamp_within;
     });
 }
 

@@ -141,20 +141,20 @@ class Meter {
 
     float add_direct(uint lamp, Measurement& m) const {
         Sum sum;
-        const bool mesh = scene_.lights[lamp].type == light_mesh;
-        for (uint b = 0; b < (mesh ? batches : 1u); ++b) {
+        const bool sampled = !is_delta(scene_.lights[lamp].type);
+        for (uint b = 0; b < (sampled ? batches : 1u); ++b) {
             const auto scramble = uint32_t(mix64(uint64_t(lamp) << 8 | b));
             float mean = 0;
-            for (uint i = 0; i < (mesh ? rays_per_batch : 1u); ++i)
+            for (uint i = 0; i < (sampled ? rays_per_batch : 1u); ++i)
                 mean += arriving(lamp, m, sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
-            if (mesh) mean /= float(rays_per_batch);
+            if (sampled) mean /= float(rays_per_batch);
             sum.value += mean;
             sum.squares += mean * mean;
         }
-        const float count = mesh ? float(batches) : 1.0f, lux = sum.value / count;
+        const float count = sampled ? float(batches) : 1.0f, lux = sum.value / count;
         m.lamps[lamp].lux += lux;
         m.lamps[lamp].direct_lux += lux;
-        return mesh ? std::max(sum.squares / count - lux * lux, 0.0f) / (count - 1) : 0.0f;
+        return sampled ? std::max(sum.squares / count - lux * lux, 0.0f) / (count - 1) : 0.0f;
     }
 
     const Probe::Parts& parts_;

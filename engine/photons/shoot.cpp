@@ -31,7 +31,7 @@ std::vector<Chunk> split_paths(const std::vector<uint64_t>& emitted, const std::
 /// tracer a guide to them.
 void guide_suns(PhotonTracer& tracer, const Scene& scene) {
     for (uint light = 0; light < scene.lights.size(); ++light) {
-        if (scene.lights[light].type != light_directional) continue;
+        if (!comes_from_outside(scene.lights[light].type)) continue;
         std::vector<double> useful_per_path(guide_paths, 0);
         parallel_for(
             guide_paths,

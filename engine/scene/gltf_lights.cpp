@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scene/gltf_profiles.h"
+#include "scene/light.h"
 #include "shaders/color.h"
 
 namespace lw {
@@ -120,28 +121,14 @@ void add_mesh_lights(const GltfFile& file, const std::vector<PlacedNode>& nodes,
     }
 }
 
-/// Luminous flux in lm; of a directional light what falls on the scene.
-double flux_of(const Light& light, const Scene& scene) {
-    const double strength = precise_luminance(light.intensity), pi = double(lw_pi);
-    if (light.type == light_point || light.type == light_profile) return 4 * pi * strength;
-    if (light.type == light_spot) return 2 * pi * (1 - double(light.cos_outer + light.cos_inner) / 2) * strength;
-    if (light.type == light_mesh) return pi * double(light.area) * strength;
-    const double radius = glm::length(glm::dvec3(scene.bounds[1] - scene.bounds[0])) / 2;
-    return pi * radius * radius * strength;
-}
-
 void warn_if_not_photometric(GltfFile& file, const Scene& scene) {
     double flux = 0;
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
-        flux += flux_of(light, scene);
-        const double limit = light.type == light_mesh ? 1e6 : light.type == light_directional ? 2e5 : 1e7;
-        if (precise_luminance(light.intensity) <= limit) continue;
+        flux += precise_luminance(light.intensity) * double(unit_flux(scene, light));
+        if (precise_luminance(light.intensity) <= max_usual_intensity(light.type)) continue;
         char text[64];
-        std::snprintf(text, sizeof text, "%.3g %s", precise_luminance(light.intensity),
-                      light.type == light_mesh          ? "cd/m2"
-                      : light.type == light_directional ? "lx"
-                                                        : "cd");
+        std::snprintf(text, sizeof text, "%.3g %s", precise_luminance(light.intensity), unit_of(light.type));
         file.warn("the lamp \"" + scene.light_names[i] + "\" has " + text +
                   "; strengths are read as candela, lux and cd/m2 - is the file photometric?");
         return;

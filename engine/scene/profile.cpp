@@ -88,7 +88,7 @@ Scene with_photometry(Scene scene, const std::vector<std::string>& texts) {
         if (found == scene.light_names.end())
             throw Error("--ies " + text + ": no lamp of this name; there are: " + names);
         Light& light = scene.lights[size_t(found - scene.light_names.begin())];
-        if (light.type == light_mesh || light.type == light_directional)
+        if (!is_at_point(light.type))
             throw Error("--ies " + text + ": only a point or spot lamp can have a photometric file");
         const std::filesystem::path file = text.substr(equals + 1);
         attach_photometry(read_photometry(file), light, scene);

@@ -9,20 +9,6 @@
 namespace lw {
 namespace {
 
-vec3 per_intensity(vec3 value, vec3 intensity) {
-    vec3 result(0);
-    for (int c = 0; c < 3; ++c)
-        if (intensity[c] > 0) result[c] = value[c] / intensity[c];
-    return result;
-}
-
-/// KHR_lights_punctual: t^2 with t linear in the cosine between the cones.
-float spot_falloff(const Light& light, float cosine) {
-    const float width = std::max(light.cos_inner - light.cos_outer, 1e-6f);
-    const float t = clamp((cosine - light.cos_outer) / width, 0.0f, 1.0f);
-    return t * t;
-}
-
 /// Cosine to the axis, distributed as the falloff: inner cone uniform, penumbra cubic.
 float sample_spot_cosine(const Light& light, float u) {
     const float inner = 1 - light.cos_inner, rim = (light.cos_inner - light.cos_outer) / 3;
@@ -59,25 +45,33 @@ float cosine_integral(const std::array<vec3, 4>& corners, uint count, vec3 norma
     return 0.5f * sum;
 }
 
+/// nullopt when no light comes that way.
+std::optional<Incident> incident(const LightSample& sample, vec3 position) {
+    if (!(sample.to_light != vec3(0)) || !(sample.radiance.x + sample.radiance.y + sample.radiance.z > 0))
+        return std::nullopt;
+    return Incident{sample.to_light, position, sample.radiance, sample.pdf};
+}
+
 }  // namespace
 
-Emitters::Emitters(const Scene& scene) : scene_(scene), surfaces_(scene) {
+Emitters::Emitters(const Scene& scene) : scene_(scene), reader_(scene), radius_(radius_around(scene)) {
     centre_ = 0.5f * (scene.bounds[0] + scene.bounds[1]);
-    radius_ = 0.5f * length(scene.bounds[1] - scene.bounds[0]) * 1.001f;
-    for (const Light& light : scene.lights) beams_.push_back(light.type == light_profile ? beam_of(light) : Beam{});
-    for (const Light& light : scene.lights) even_radiance_.push_back(even_radiance_of(light));
+    for (const Light& light : scene.lights) {
+        profiles_.push_back(has_table(light.type) ? cells_of_profile(scene, light) : ProfileCells{});
+        even_radiance_.push_back(even_radiance_of(light));
+    }
 }
 
 vec3 Emitters::even_radiance_of(const Light& light) const {
     constexpr vec3 uneven(-1);
-    if (light.type != light_mesh) return uneven;
+    if (light.emitter_count == 0) return uneven;
     const Material& first = scene_.material_of(scene_.emitters[light.first_emitter].triangle);
     for (uint i = 0; i < light.emitter_count; ++i) {
         const Material& m = scene_.material_of(scene_.emitters[light.first_emitter + i].triangle);
         const bool holes = (m.flags & (material_alpha_mask | material_alpha_blend)) != 0;
         if (&m != &first || m.emissive_texture.texture >= 0 || holes) return uneven;
     }
-    return per_intensity(first.emissive, light.intensity);
+    return reader_.per_intensity(light, first.emissive);
 }
 
 bool Emitters::is_even(uint index) const {
@@ -101,57 +95,14 @@ vec3 Emitters::even_irradiance(uint index, vec3 point, vec3 normal) const {
     return even_radiance_[index] * sum;
 }
 
-Emitters::Beam Emitters::beam_of(const Light& light) const {
-    // A round distribution has one column, which is cut so that no cell goes all around.
-    Beam beam{std::max(scene_.texels[light.profile], 4u), scene_.texels[light.profile + 1] - 1, {}};
-    const uint step = scene_.texels[light.profile] == 1 ? 0 : 1;
-    double sum = 0;
-    for (uint c = 0; c < beam.columns; ++c)
-        for (uint r = 0; r < beam.rows; ++r) {
-            const float low = lw_pi * float(r) / float(beam.rows), high = lw_pi * float(r + 1) / float(beam.rows);
-            const double area = double(std::cos(low) - std::cos(high)) * 2 * double(lw_pi) / beam.columns;
-            const auto at = [&](uint i, uint j) { return double(surfaces_.profile_entry(light.profile, i * step, j)); };
-            sum += area * (at(c, r) + at(c + 1, r) + at(c, r + 1) + at(c + 1, r + 1)) / 4;
-            beam.flux_below.push_back(float(sum));
-        }
-    return beam;
-}
-
-Emission Emitters::emit_profile(const Light& light, const Beam& beam, float u, float v) const {
-    const float total = beam.flux_below.back();
-    const auto chosen = std::min(std::upper_bound(beam.flux_below.begin(), beam.flux_below.end(), u * total),
-                                 beam.flux_below.end() - 1);
-    const auto cell = uint(chosen - beam.flux_below.begin());
-    const float below = cell == 0 ? 0.0f : beam.flux_below[cell - 1], own = *chosen - below;
-    const float within = clamp((u * total - below) / std::max(own, 1e-30f), 0.0f, 0.99999994f);
-    const uint column = cell / beam.rows, row = cell % beam.rows;
-    const float low = std::cos(lw_pi * float(row) / float(beam.rows)),
-                high = std::cos(lw_pi * float(row + 1) / float(beam.rows));
-    const float cosine = low + within * (high - low), c = 2 * lw_pi * (float(column) + v) / float(beam.columns);
-    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-    const vec3 direction = normalize(light.direction * cosine + light.across * (sine * std::cos(c)) +
-                                     cross(light.across, light.direction) * (sine * std::sin(c)));
-    const float area = (low - high) * 2 * lw_pi / float(beam.columns);
-    const float flux = surfaces_.profile_value(light, direction) * area * total / std::max(own, 1e-30f);
-    return {light.position, vec3(0), direction, vec3(flux)};
-}
-
-float Emitters::area_of(const Light& light) const {
-    return scene_.emitters[light.first_emitter + light.emitter_count - 1].area_below;
-}
-
-Surface Emitters::point_of(uint index, float u, float v) const {
-    const Light& light = scene_.lights[index];
-    const auto first = scene_.emitters.begin() + light.first_emitter, last = first + light.emitter_count;
-    const float wanted = u * area_of(light);
-    const auto below = [](float area, const Emitter& e) { return area < e.area_below; };
-    const auto chosen = std::min(std::upper_bound(first, last, wanted, below), last - 1);
-    const float start = chosen == first ? 0.0f : (chosen - 1)->area_below;
-    const float within = clamp((wanted - start) / std::max(chosen->area_below - start, 1e-30f), 0.0f, 0.99999994f);
+/// Uniform by area.
+Surface Emitters::point_of(const Light& light, float u, float v) const {
+    float within = 0;
+    const uint triangle = reader_.pick_emitter(light, u, within);
     const vec2 place = sample_triangle(within, v);
-    if (shines_alike(index)) return even_point(chosen->triangle, place);
-    Surface s = surfaces_.surface_at(chosen->triangle, place);
-    s.emissive *= surfaces_.opacity_at(chosen->triangle, s);  // holes do not glow
+    if (shines_alike(size_t(&light - scene_.lights.data()))) return even_point(triangle, place);
+    Surface s = reader_.surface_at(triangle, place);
+    s.emissive *= reader_.opacity_at(triangle, s);  // holes do not glow
     return s;
 }
 
@@ -172,77 +123,89 @@ Surface Emitters::even_point(uint triangle, vec2 barycentrics) const {
 
 float Emitters::unit_flux(uint index) const {
     const Light& light = scene_.lights[index];
-    switch (light.type) {
-        case light_point:
-            return 4 * lw_pi;
-        case light_spot:
-            return 2 * lw_pi * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
-        case light_profile:
-            return beams_[index].flux_below.back();
-        case light_directional:
-            return lw_pi * radius_ * radius_;
-        default:
-            return lw_pi * light.area;
-    }
+    return has_table(light.type) ? profiles_[index].flux_below.back() : lw::unit_flux(scene_, light);
 }
 
 Emission Emitters::emit(uint index, const std::array<float, 5>& u) const {
     const Light& light = scene_.lights[index];
     const vec3 flux(unit_flux(index));
-    if (light.type == light_point) return {light.position, vec3(0), direction_of(1 - 2 * u[2], u[3]), flux};
-    if (light.type == light_profile) return emit_profile(light, beams_[index], u[2], u[3]);
-    if (light.type == light_spot)
-        return {light.position, vec3(0),
-                frame_around(light.direction) * direction_of(sample_spot_cosine(light, u[2]), u[3]), flux};
-    if (light.type == light_directional) {
-        const vec2 disc = sample_disc(u[0], u[1]) * radius_;
-        const mat3 frame = frame_around(light.direction);
-        return {centre_ + frame * vec3(disc.x, disc.y, -radius_), vec3(0), light.direction, flux};
+    switch (light.type) {
+        case light_point:
+            return {light.position, vec3(0), direction_of(1 - 2 * u[2], u[3]), flux};
+        case light_spot:
+            return {light.position, vec3(0),
+                    frame_around(light.direction) * direction_of(sample_spot_cosine(light, u[2]), u[3]), flux};
+        case light_directional: {
+            const vec2 disc = sample_disc(u[0], u[1]) * radius_;
+            const mat3 frame = frame_around(light.direction);
+            return {centre_ + frame * vec3(disc.x, disc.y, -radius_), vec3(0), light.direction, flux};
+        }
+        case light_mesh:
+            return emit_from_mesh(light, u);
+        case light_profile:
+            return emit_profile(light, profiles_[index], u[2], u[3]);
     }
-    const Surface s = point_of(index, u[0], u[1]);
+    return {};
+}
+
+/// A cell of the table in proportion to its flux, and a direction in it, uniform by solid angle: the flux of the photon
+/// makes up for what the table varies within the cell.
+Emission Emitters::emit_profile(const Light& light, const ProfileCells& cells, float u, float v) const {
+    const float total = cells.flux_below.back();
+    const auto chosen = std::min(std::upper_bound(cells.flux_below.begin(), cells.flux_below.end(), u * total),
+                                 cells.flux_below.end() - 1);
+    const auto cell = uint(chosen - cells.flux_below.begin());
+    const float below = cell == 0 ? 0.0f : cells.flux_below[cell - 1], own = *chosen - below;
+    const float within = clamp((u * total - below) / std::max(own, 1e-30f), 0.0f, 0.99999994f);
+    const uint column = cell / cells.rows, row = cell % cells.rows;
+    const float low = std::cos(lw_pi * float(row) / float(cells.rows)),
+                high = std::cos(lw_pi * float(row + 1) / float(cells.rows));
+    const float cosine = low + within * (high - low), c = 2 * lw_pi * (float(column) + v) / float(cells.columns);
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    const vec3 direction = normalize(light.direction * cosine + light.across * (sine * std::cos(c)) +
+                                     cross(light.across, light.direction) * (sine * std::sin(c)));
+    const float area = (low - high) * 2 * lw_pi / float(cells.columns);
+    const float flux = reader_.profile_value(light, direction) * area * total / std::max(own, 1e-30f);
+    return {light.position, vec3(0), direction, vec3(flux)};
+}
+
+Emission Emitters::emit_from_mesh(const Light& light, const std::array<float, 5>& u) const {
+    const Surface s = point_of(light, u[0], u[1]);
     const bool back = (s.flags & material_double_sided) && u[4] >= 0.5f;
     const float sides = s.flags & material_double_sided ? 2.0f : 1.0f;
     const vec3 n = back ? -s.geometric_normal : s.geometric_normal;
-    const vec3 relative = per_intensity(s.emissive, light.intensity);
-    return {s.position, n, frame_around(n) * sample_cosine(u[2], u[3]), relative * (lw_pi * area_of(light) * sides)};
+    const vec3 relative = reader_.per_intensity(light, s.emissive);
+    return {s.position, n, frame_around(n) * sample_cosine(u[2], u[3]),
+            relative * (lw_pi * reader_.area_of_mesh(light) * sides)};
 }
 
 std::optional<Incident> Emitters::arrive(uint index, vec3 point, float u, float v) const {
     const Light& light = scene_.lights[index];
-    if (light.type == light_directional)
-        return Incident{-light.direction, point - light.direction * (4 * radius_), vec3(1), 0};
-    if (light.type != light_mesh) {
-        const vec3 path = light.position - point;
-        const float d2 = dot(path, path);
-        if (!(d2 > 0)) return std::nullopt;
-        const vec3 to_light = path / std::sqrt(d2);
-        const float falloff = light.type == light_spot      ? spot_falloff(light, -dot(to_light, light.direction))
-                              : light.type == light_profile ? surfaces_.profile_value(light, -to_light)
-                                                            : 1.0f;
-        if (falloff <= 0) return std::nullopt;
-        return Incident{to_light, light.position, vec3(falloff / d2), 0};
+    switch (light.type) {
+        case light_point:
+        case light_spot:
+        case light_profile:
+            return incident(reader_.sample_from_point(light, point), light.position);
+        case light_directional:
+            return incident(reader_.sample_directional(light), point - light.direction * (4 * radius_));
+        case light_mesh: {
+            const Surface s = point_of(light, u, v);
+            const LightPlace place{s.position, s.geometric_normal, 1, s.emissive,
+                                   (s.flags & material_double_sided) != 0};
+            return incident(reader_.sample_from_place(light, point, place), s.position);
+        }
     }
-    const Surface s = point_of(index, u, v);
-    const vec3 path = s.position - point;
-    const float distance = length(path);
-    if (!(distance > 0)) return std::nullopt;
-    const vec3 to_light = path / distance;
-    const float pdf = arrive_pdf(s, distance, to_light);
-    const vec3 emitted = radiance(s, -to_light);
-    if (!(pdf > 0) || (emitted.x + emitted.y + emitted.z) <= 0) return std::nullopt;
-    return Incident{to_light, s.position, emitted, pdf};
+    return std::nullopt;
 }
 
 vec3 Emitters::radiance(const Surface& s, vec3 to_view) const {
     if (s.light < 0) return vec3(0);
     if (dot(s.geometric_normal, to_view) <= 0 && !(s.flags & material_double_sided)) return vec3(0);
-    return per_intensity(s.emissive, scene_.lights[size_t(s.light)].intensity);
+    return reader_.per_intensity(scene_.lights[size_t(s.light)], s.emissive);
 }
 
 float Emitters::arrive_pdf(const Surface& s, float distance, vec3 to_light) const {
-    const Light& light = scene_.lights[size_t(s.light)];
-    const float cosine = abs(dot(s.geometric_normal, to_light));
-    return cosine > 1e-6f ? distance * distance / (cosine * area_of(light)) : 0.0f;
+    return reader_.light_pdf(scene_.lights[size_t(s.light)], distance, dot(s.geometric_normal, to_light));
 }
 
 std::vector<vec3> light_powers(const Scene& scene, const std::vector<vec3>& factors) {

@@ -1,11 +1,12 @@
-// Light leaving the lamps: emission for photons, and light sampling for the path tracer.
-// Everything is for intensity 1 of the lamp (1 cd, 1 lx, 1 cd/m2 per RGB channel); powers are applied by the caller.
+// Sampling of the lights of a scene on the CPU: emission of photons, and light that arrives at a point.
+// The formulas are those of shaders/lights.glsl, which the GPU runs too. Everything is for intensity 1 of the lamp (1
+// cd, 1 lx or 1 cd/m2 of each RGB channel); the caller multiplies by the power of the lamp.
 #pragma once
 #include <array>
 #include <optional>
 #include <vector>
 
-#include "scene/surface.h"
+#include "scene/light.h"
 
 namespace lw {
 
@@ -21,7 +22,7 @@ struct Emission {
 struct Incident {
     vec3 to_light;  // unit
     vec3 position;  // on the lamp, or far outside the scene for directional light
-    vec3 radiance;  // delta lights: irradiance on a plane facing the light; mesh lights: radiance, per unit intensity
+    vec3 radiance;  // per unit intensity; of delta lights the irradiance on a plane facing the light
     float pdf;      // solid angle; 0 for delta lights
 };
 
@@ -30,9 +31,7 @@ class Emitters {
   public:
     explicit Emitters(const Scene& scene);
 
-    /// Flux of the whole lamp, lm per unit intensity (directional: over the disc around the scene).
-    /// Point: 4 pi; spot: 2 pi ((1 - cos_i) + (cos_i - cos_o) / 3), the integral of the squared KHR falloff; mesh: pi
-    /// A.
+    /// Flux of the whole lamp, lm per unit intensity; see scene/light.h.
     float unit_flux(uint light) const;
 
     /// Samples emission from five numbers in [0, 1): position (2), direction (2), side of the sheet (1).
@@ -44,7 +43,7 @@ class Emitters {
     /// Emitted radiance at a surface towards `to_view`, per unit intensity of its lamp; zero without a lamp.
     vec3 radiance(const Surface& s, vec3 to_view) const;
 
-    /// Solid-angle pdf with which arrive() picks the point of a mesh lamp at this distance and direction.
+    /// Solid-angle pdf with which arrive() picks the point of a lamp's surface at this distance and unit direction.
     float arrive_pdf(const Surface& s, float distance, vec3 to_light) const;
 
     /// True for a mesh of few triangles that shines alike all over: its light has a closed form.
@@ -54,25 +53,19 @@ class Emitters {
     vec3 even_irradiance(uint light, vec3 point, vec3 normal) const;
 
   private:
-    /// Cells of a light distribution, picked in proportion to their flux; their last sum is the lamp's, lm per cd.
-    struct Beam {
-        uint columns = 0, rows = 0;
-        std::vector<float> flux_below;
-    };
-    Beam beam_of(const Light& light) const;
-    Emission emit_profile(const Light& light, const Beam& beam, float u, float v) const;
+    Emission emit_profile(const Light& light, const ProfileCells& cells, float u, float v) const;
+    Emission emit_from_mesh(const Light& light, const std::array<float, 5>& u) const;
 
     const Scene& scene_;
-    SurfaceReader surfaces_;
-    std::vector<Beam> beams_;  // per lamp, empty but for profile lights
+    LightReader reader_;
+    std::vector<ProfileCells> profiles_;  // per lamp, empty where the lamp has no table
     /// The point at (u, v) of a mesh lamp, uniform by area.
-    Surface point_of(uint light, float u, float v) const;
+    Surface point_of(const Light& light, float u, float v) const;
     Surface even_point(uint triangle, vec2 barycentrics) const;
-    float area_of(const Light& light) const;  // one side, m2
 
     vec3 even_radiance_of(const Light& light) const;
     std::vector<vec3> even_radiance_;  // per lamp, per unit intensity; negative where it does not shine alike all over
-    bool shines_alike(uint light) const { return even_radiance_[light].x >= 0; }
+    bool shines_alike(size_t light) const { return even_radiance_[light].x >= 0; }
 
     vec3 centre_;
     float radius_;  // of the sphere around the scene

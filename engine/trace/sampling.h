@@ -33,12 +33,6 @@ inline vec3 direction_of(float cosine, float v) {
     return {sine * std::cos(phi), sine * std::sin(phi), cosine};
 }
 
-/// Uniform barycentrics (second and third weight).
-inline vec2 sample_triangle(float u, float v) {
-    const float root = std::sqrt(u);
-    return {root * (1 - v), root * v};
-}
-
 /// Element `index`, dimension 0 to 4, of the Sobol sequence with Owen scrambling, in [0, 1): direction numbers of Joe &
 /// Kuo (2008), hash-based scrambling of Burley (2020). Sequences of different `seed` are independent.
 float sobol_owen(uint32_t index, int dimension, uint32_t seed);

@@ -31,7 +31,7 @@ constexpr Constant constants[] = {
     {&FrameConstants::has_uv0, "texture coordinates"},   {&FrameConstants::has_textures, "textures"},
     {&FrameConstants::has_directions, "directions"},     {&FrameConstants::has_transmission, "glass"},
     {&FrameConstants::has_caustics, "caustics"},         {&FrameConstants::has_followed, "followed lobes"},
-    {&FrameConstants::has_mesh_lamps, "glowing meshes"}, {&FrameConstants::has_visible_lamps, "visible lamps"},
+    {&FrameConstants::has_area_lamps, "glowing meshes"}, {&FrameConstants::has_visible_lamps, "visible lamps"},
     {&FrameConstants::has_shadow_masks, "shadow masks"}, {&FrameConstants::has_shadow_rays, "shadow rays"}};
 
 /// What the shader of a scene is compiled with.

@@ -8,7 +8,7 @@
 
 namespace lw {
 
-Light& LabScene::add_light(uint type, const std::string& name) {
+Light& LabScene::add_light(LightType type, const std::string& name) {
     Light light{};
     light.type = type;
     light.direction = vec3(0, -1, 0);

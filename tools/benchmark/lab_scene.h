@@ -24,7 +24,7 @@ class LabScene {
   private:
     void begin_object(const std::string& name, float albedo, float radiance);
     void add_triangle(vec3 a, vec3 b, vec3 c);
-    Light& add_light(uint type, const std::string& name);
+    Light& add_light(LightType type, const std::string& name);
 
     Scene scene_;
 };
