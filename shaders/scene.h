@@ -10,12 +10,6 @@ namespace lw {
 
 LW_CONST uint no_triangle = 0xffffffffu;  // in the place of the number of a triangle
 
-LW_CONST uint light_point = 0u;        // intensity in cd
-LW_CONST uint light_spot = 1u;         // intensity in cd inside the inner cone
-LW_CONST uint light_directional = 2u;  // intensity in lx on a plane facing the light
-LW_CONST uint light_mesh = 3u;         // intensity in cd/m2
-LW_CONST uint light_profile = 4u;      // intensity in cd in the strongest direction of its table
-
 LW_CONST uint material_double_sided = 1u;  // emits from both sides
 LW_CONST uint material_unlit = 2u;         // shows base colour x 1 cd/m2, reflects no light
 LW_CONST uint material_alpha_mask = 4u;

@@ -90,7 +90,7 @@ void check_masks(const std::filesystem::path& path, const PhotonMap& map, const 
             return a.cell < b.cell || (a.cell == b.cell && a.lamp < b.lamp);
         };
         if (mask.cell >= map.coverage.size() || mask.lamp >= scene.lights.size() ||
-            scene.lights[mask.lamp].type == light_mesh || (i > 0 && !before(map.shadow_masks[i - 1], mask)))
+            !is_delta(scene.lights[mask.lamp].type) || (i > 0 && !before(map.shadow_masks[i - 1], mask)))
             refuse(path, "shadow mask " + std::to_string(i) + " is not valid");
     }
 }

@@ -161,7 +161,7 @@ class NodeLight {
 
     static bool has_meshes(const Scene& scene) {
         return std::any_of(scene.lights.begin(), scene.lights.end(),
-                           [](const Light& lamp) { return lamp.type == light_mesh; });
+                           [](const Light& lamp) { return !is_delta(lamp.type); });
     }
 
     const Scene& scene_;
