@@ -8,6 +8,8 @@
 
 #include "app/measuring/metering.h"
 #include "app/panels/panels.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 
 namespace lw {
 namespace {

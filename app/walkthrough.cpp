@@ -5,6 +5,8 @@
 #include "app/baking.h"
 #include "app/measuring/field_reader.h"
 #include "app/picture/viewer.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 #include "base/error.h"
 #include "gpu/commands.h"
 #include "scene/camera.h"
@@ -140,7 +142,7 @@ void walk_in_world(Window& window, const WalkthroughSettings& settings, Session&
 
 void walk_in_window(const WalkthroughSettings& settings) {
     std::unique_ptr<World> world = load_world(settings, book_beside(settings.scene));
-    auto session = std::make_unique<Session>(*world, settings.output);
+    auto session = std::make_unique<Session>(open_session(*world, settings.output));
     set_start(settings, *session);
     if (device_names().empty())
         throw Error("Vulkan: no device found (mesa-vulkan-drivers has one that runs on the CPU)");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 #include "base/error.h"
 #include "base/replaced_file.h"
 #include "measure/table.h"

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "app/panels/panels.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 
 namespace lw {
 namespace {

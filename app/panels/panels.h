@@ -29,7 +29,7 @@ void draw_reflections(const Session& session, const ReflectionReport* report);
 /// All keys.
 void draw_keys();
 /// The line told last, and the bake that runs.
-void draw_notice(const Session& session, const std::optional<ProgressBoard::State>& baking, double now);
+void draw_notice(const Session& session, const std::optional<ProgressBoard::State>& baking);
 
 /// Text on a dark plate over the picture, its top left corner at (x, y).
 void draw_plate(float x, float y, const std::string& text, uint color = 0xfff0f0f0u);

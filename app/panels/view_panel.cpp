@@ -5,6 +5,8 @@
 
 #include "app/measuring/metering.h"
 #include "app/panels/panels.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 #include "base/memory.h"
 
 namespace lw {

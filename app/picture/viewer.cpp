@@ -6,6 +6,8 @@
 #include "app/controls.h"
 #include "app/measuring/metering.h"
 #include "app/panels/panels.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 #include "app/window/clipboard.h"
 #include "base/error.h"
 #include "image/exr.h"
@@ -110,7 +112,7 @@ void Viewer::draw_panels(const BakingState& baking, double now) {
     }
     if (session_.panels) draw_lamp_panel(session_), draw_view_panel(session_);
     if (session_.keys) draw_keys();
-    draw_notice(session_, baking, now);
+    draw_notice(session_, baking);
 }
 
 void Viewer::present(const OpenFrame& open, const BakingState& baking, double now) {

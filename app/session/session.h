@@ -1,6 +1,7 @@
 // All that the user can change, as plain values: where they stand, the lamps, what is shown. Panels and keys write it,
 // the frame reads it.
 #pragma once
+#include <chrono>
 #include <optional>
 
 #include "app/measuring/fields.h"
@@ -70,7 +71,7 @@ enum class PictureRequest { none, save, copy };
 /// A line told to the user for a few seconds.
 struct Notice {
     std::string text;
-    double until = 0;  // s, Window::now()
+    std::chrono::steady_clock::time_point until{};
 };
 
 struct FrameStatistics {
@@ -83,6 +84,7 @@ struct FrameStatistics {
 };
 
 struct Session {
+    /// At the first camera, all lamps as in the scene; open_session() adds what is kept beside the scene.
     Session(const World& world, std::filesystem::path output);
     /// The same session in the same building with other lamps.
     Session(const World& world, const Session& before);
@@ -103,46 +105,18 @@ struct Session {
     Viewing viewing;
     Metering metering;
     Fields fields;
-    bool panels = true, keys = false, full_screen = false;
+    bool panels = true, keys = false;  // shown
     PictureRequest picture_request = PictureRequest::none;
     bool reload = false;  // lamps have got other photometric files: the scene is loaded and baked anew
     Notice notice;
     FrameStatistics statistics;
 };
 
-/// Shows a line for a while.
-void tell(Session& session, const std::string& text, double seconds = 5);
-
 /// What the lamps are multiplied by now, crossfade included.
 std::vector<vec3> factors_now(const Lighting& lighting);
 
-/// Lights the board, fading from what is lit now.
-void fade_to(Lighting& lighting, const LampBoard& board);
-
-/// Keeps ambiances, groups and photometric files beside the scene; tells that `what` is saved, or why not.
-void save_book(Session& session, const std::string& what);
-
-/// Puts a photometric file (relative to the scene's folder) on a point or spot lamp, or takes it off (""); keeps that
-/// beside the scene and asks for the scene to be loaded anew. Tells what is wrong with a file.
-void attach_file(Session& session, size_t lamp, const std::string& file);
-
-/// Flies to place `index`: the cameras of the scene, then the bookmarks. False when there is none.
-bool fly_to(Session& session, size_t index);
-
-/// Keeps the view as a bookmark beside the scene.
-void add_bookmark(Session& session);
-
-/// Starts recording the walk, or ends and saves it.
-void toggle_recording(Session& session);
-
-/// Moves on by `seconds`: transition or walk, crossfade, recording.
-void advance(Session& session, const WalkInput& input, float seconds);
-
-/// What the frame shows.
+/// What the next frame is to show.
 FrameRequest frame_request_of(const Session& session, uint divisor);
 DisplaySettings display_settings_of(const Session& session, bool bgr);
-
-/// A file in the output folder that does not exist yet: SCENE-001.EXT, SCENE-002.EXT, ...
-std::filesystem::path free_name(const Session& session, const std::string& extension);
 
 }  // namespace lw

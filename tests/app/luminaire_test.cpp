@@ -1,5 +1,6 @@
 // Photometric files on lamps in the walkthrough: what the panel tells of them, and that they stay with the scene.
 #include "app/session/luminaire.h"
+#include "app/session/saving.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ TEST(Luminaire, StaysWithTheSceneForEveryProgram) {
     std::filesystem::copy_file(cube(), folder / "cube.gltf");
     std::filesystem::copy_file(file_of("downlight.ies"), folder / "downlight.ies");
     const World world(folder / "cube.gltf", {});
-    Session session(world, folder.path());
+    Session session = open_session(world, folder.path());
     attach_file(session, 0, "nothing.ies");
     EXPECT_FALSE(session.reload);
     EXPECT_NE(session.notice.text.find("nothing.ies"), std::string::npos);
