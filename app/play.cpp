@@ -11,7 +11,7 @@
 #include "file/map_file.h"
 #include "image/light_check.h"
 #include "image/png.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
 
 namespace lw {
 namespace {
@@ -115,14 +115,14 @@ std::filesystem::path frame_name(const std::filesystem::path& folder, size_t i) 
 
 void play(const PlaySettings& settings) {
     const LampBook book = load_lamp_book(default_ambiances_path(settings.scene));
-    const World world(settings.scene, photometry_texts(book, settings.scene, settings.photometry));
+    const World world(settings.scene, book, settings.photometry);
     const Path path = load_path(settings.path);
     const std::vector<vec3> factors = chosen_factors(world.scene, settings.ambiance, {});
     const auto map = std::make_shared<const PhotonMap>(load_photon_map(settings.map, world.scene));
     if (!settings.frames.empty()) prepare_folder(settings.frames);
     if (!settings.timings.empty()) {
         std::vector<std::filesystem::path> inputs = world.scene.files;
-        inputs.insert(inputs.end(), {settings.map, settings.path, default_ambiances_path(settings.scene)});
+        inputs.insert(inputs.end(), {settings.map, settings.path});
         check_can_create(settings.timings, inputs);
     }
     const Device device(settings.device);

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "gpu/commands.h"
 #include "scene/camera.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
 
 namespace lw {
 namespace {
@@ -111,10 +111,10 @@ LampBook book_beside(const std::filesystem::path& scene) {
 /// The scene with the photometric files of its book; without them, which is told, when something is wrong with these.
 std::unique_ptr<World> load_world(const WalkthroughSettings& settings, const LampBook& book) {
     try {
-        return std::make_unique<World>(settings.scene, photometry_texts(book, settings.scene, settings.photometry));
+        return std::make_unique<World>(settings.scene, book, settings.photometry);
     } catch (const Error& failure) {
         if (book.photometry.empty()) throw;
-        auto world = std::make_unique<World>(settings.scene, settings.photometry);
+        auto world = std::make_unique<World>(settings.scene, LampBook(), settings.photometry);
         std::fprintf(stderr, "warning: %s: going on without the files of the lamps\n", failure.what());
         return world;
     }

@@ -20,9 +20,11 @@
 #include "measure/survey.h"
 #include "measure/table.h"
 #include "number_option.h"
+#include "photometry/photometry.h"
 #include "photons/shoot.h"
 #include "scene/camera.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
+#include "scene/load_scene.h"
 #include "scene/recorded_path.h"
 
 namespace {

@@ -15,7 +15,8 @@
 #include "number_option.h"
 #include "scene/ambiance.h"
 #include "scene/camera.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
+#include "scene/load_scene.h"
 #include "trace/reference.h"
 
 namespace {

@@ -1,4 +1,5 @@
 #include "app/session/lamp_board.h"
+#include "scene/lamp_factors.h"
 
 #include <algorithm>
 #include <cmath>

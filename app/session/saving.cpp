@@ -28,8 +28,8 @@ Session open_session(const World& world, std::filesystem::path output) {
     const std::filesystem::path& scene = world.scene.path;
     s.lighting.book = loaded_or_empty<LampBook>([&] { return load_lamp_book(default_ambiances_path(scene)); },
                                                 s.lighting.book_trouble);
-    s.bookmarks = loaded_or_empty<std::vector<Bookmark>>(
-        [&] { return load_bookmarks(default_bookmarks_path(scene)); }, s.bookmarks_trouble);
+    s.bookmarks = loaded_or_empty<std::vector<Bookmark>>([&] { return load_bookmarks(default_bookmarks_path(scene)); },
+                                                         s.bookmarks_trouble);
     return s;
 }
 

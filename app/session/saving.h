@@ -5,8 +5,8 @@
 
 namespace lw {
 
-/// A session with the ambiances, groups and bookmarks kept beside the scene. A file that is damaged is told of and never
-/// overwritten.
+/// A session with the ambiances, groups and bookmarks kept beside the scene. A file that is damaged is told of and
+/// never overwritten.
 Session open_session(const World& world, std::filesystem::path output);
 
 /// Keeps ambiances, groups and photometric files beside the scene; tells that `what` is saved, or why not.

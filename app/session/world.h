@@ -7,13 +7,13 @@
 #include "app/walk/surroundings.h"
 #include "maps/photon_map.h"
 #include "scene/bvh.h"
+#include "scene/load_scene.h"
 
 namespace lw {
 
 struct World {
-    /// Loads the scene with photometric files ("LAMP=FILE") on its lamps, prints its warnings. Throws Error as
-    /// load_gltf() and with_photometry().
-    World(const std::filesystem::path& path, const std::vector<std::string>& photometry);
+    /// load_scene(), whose warnings are printed. Throws Error as that.
+    World(const std::filesystem::path& path, const LampBook& book, const std::vector<std::string>& photometry);
 
     Scene scene;
     RayCaster caster;

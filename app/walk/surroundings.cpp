@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/triangle.h"
+
 namespace lw {
 namespace {
 

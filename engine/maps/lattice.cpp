@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "maps/cuts.h"
+#include "scene/triangle.h"
 #include "trace/ray_caster.h"
 
 namespace lw {

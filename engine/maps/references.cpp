@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "maps/cuts.h"
 #include "maps/wall_lines.h"
+#include "scene/triangle.h"
 
 namespace lw {
 namespace {

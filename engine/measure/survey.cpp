@@ -13,7 +13,7 @@
 #include "measure/placing.h"
 #include "photons/shoot.h"
 #include "scene/ambiance.h"
-#include "scene/camera.h"
+#include "scene/lamp_factors.h"
 #include "trace/build_bvh.h"
 #include "trace/emitter.h"
 

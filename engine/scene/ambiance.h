@@ -40,14 +40,4 @@ LampBook load_lamp_book(const std::filesystem::path& path);
 /// Throws Error naming the file when it cannot be written.
 void save_lamp_book(const std::filesystem::path& path, const LampBook& book);
 
-/// What the setting of a lamp of this intensity multiplies it by, by colour. Throws Error as filter_to_temperature().
-vec3 factor_of(const LampSetting& setting, vec3 intensity);
-
-/// One factor per lamp of the scene and channel. Throws Error naming a lamp that the scene does not have.
-std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance);
-
-/// Factors of the ambiance called `name` of the scene's file (none when empty) times those of "LAMP=FACTOR" texts.
-/// Throws Error listing the ambiances, or as light_factors() and parse_powers().
-std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, const std::vector<std::string>& powers);
-
 }  // namespace lw

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "scene/ambiance.h"
 #include "scene/content_hash.h"
-#include "scene/gltf.h"
+#include "scene/lamp_factors.h"
 
 namespace lw {
 namespace {
@@ -81,12 +81,8 @@ Scene with_photometry(Scene scene, const std::vector<std::string>& texts) {
     for (const std::string& text : texts) {
         const size_t equals = text.find('=');
         if (equals == std::string::npos) throw Error("--ies " + text + ": write LAMP=FILE");
-        const auto found = std::find(scene.light_names.begin(), scene.light_names.end(), text.substr(0, equals));
-        std::string names;
-        for (const std::string& name : scene.light_names) names += (names.empty() ? "" : ", ") + name;
-        if (found == scene.light_names.end())
-            throw Error("--ies " + text + ": no lamp of this name; there are: " + names);
-        Light& light = scene.lights[size_t(found - scene.light_names.begin())];
+        const size_t lamp = find_lamp(scene, text.substr(0, equals), "--ies " + text + ": no lamp of this name");
+        Light& light = scene.lights[lamp];
         if (light.type == light_mesh || light.type == light_directional)
             throw Error("--ies " + text + ": only a point or spot lamp can have a photometric file");
         const std::filesystem::path file = text.substr(equals + 1);
@@ -94,26 +90,6 @@ Scene with_photometry(Scene scene, const std::vector<std::string>& texts) {
         scene.files.push_back(file);
     }
     if (!texts.empty()) scene.content_hash = content_hash(scene);
-    return scene;
-}
-
-std::vector<std::string> photometry_texts(const LampBook& book, const std::filesystem::path& scene,
-                                          const std::vector<std::string>& given) {
-    std::vector<std::string> texts;
-    for (const auto& [lamp, file] : book.photometry) {
-        const std::string start = lamp + "=";
-        const auto names_it = [&](const std::string& text) { return text.starts_with(start); };
-        if (std::none_of(given.begin(), given.end(), names_it))
-            texts.push_back(start + (scene.parent_path() / file).string());
-    }
-    texts.insert(texts.end(), given.begin(), given.end());
-    return texts;
-}
-
-Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry) {
-    const LampBook book = load_lamp_book(default_ambiances_path(path));
-    Scene scene = with_photometry(load_gltf(path), photometry_texts(book, path, photometry));
-    scene.files.push_back(default_ambiances_path(path));
     return scene;
 }
 

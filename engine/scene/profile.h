@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "photometry/photometry.h"
-#include "scene/ambiance.h"
 #include "scene/scene.h"
 
 namespace lw {
@@ -24,13 +23,5 @@ vec3 color_of_temperature(double kelvin);
 /// The scene with the files of "LAMP=FILE" texts on its point and spot lamps. Throws Error for an unknown lamp, one
 /// that is a mesh or a sun, and a bad file.
 Scene with_photometry(Scene scene, const std::vector<std::string>& texts);
-
-/// "LAMP=FILE" texts: those of the book beside a scene, but for lamps that `given` names, then `given`.
-std::vector<std::string> photometry_texts(const LampBook& book, const std::filesystem::path& scene,
-                                          const std::vector<std::string>& given);
-
-/// load_gltf() with the files that SCENE.ambiances.json and the texts put on its lamps: the scene as every program sees
-/// it. Throws Error when that file is malformed, and as with_photometry().
-Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry);
 
 }  // namespace lw

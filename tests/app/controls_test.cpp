@@ -9,7 +9,7 @@ namespace lw {
 namespace {
 
 struct Building {
-    Building() : world(LUMENWALK_SOURCE_DIR "/data/apartment.glb", {}), session(world, "") {}
+    Building() : world(LUMENWALK_SOURCE_DIR "/data/apartment.glb", {}, {}), session(world, "") {}
     World world;
     Session session;
 };

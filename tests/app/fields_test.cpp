@@ -16,7 +16,7 @@ namespace {
 
 struct Cube {
     Cube()
-        : world(LUMENWALK_SOURCE_DIR "/data/cube.gltf", {}),
+        : world(LUMENWALK_SOURCE_DIR "/data/cube.gltf", {}, {}),
           map(std::make_shared<const PhotonMap>(build_photon_map(
               world.scene, world.caster, shoot_photons(world.scene, world.caster, {20'000, 1}), {20'000, 0, 60, 1}))),
           reader(world.scene, world.caster) {}

@@ -9,7 +9,7 @@
 #include "app/session/lamp_board.h"
 #include "app/session/session.h"
 #include "programs/command.h"
-#include "scene/profile.h"
+#include "scene/load_scene.h"
 
 namespace lw {
 namespace {
@@ -18,7 +18,7 @@ std::string cube() { return LUMENWALK_SOURCE_DIR "/data/cube.gltf"; }
 std::string file_of(const char* name) { return LUMENWALK_SOURCE_DIR "/data/photometry/" + std::string(name); }
 
 TEST(Luminaire, TellsFluxAndShapeOfTheFile) {
-    const World world(cube(), {"lamp=" + file_of("downlight.ies")});
+    const World world(cube(), {}, {"lamp=" + file_of("downlight.ies")});
     ASSERT_EQ(world.luminaires.size(), 1u);
     const Luminaire& luminaire = world.luminaires.at(0);
     EXPECT_NEAR(luminaire.unit_flux, 2 * lw_pi / 9, 0.002f);                   // cos^8
@@ -32,7 +32,7 @@ TEST(Luminaire, TellsFluxAndShapeOfTheFile) {
 }
 
 TEST(Luminaire, ShowsBothPlanesOfALampThatIsNotRound) {
-    const World world(cube(), {"lamp=" + file_of("washer.ldt")});
+    const World world(cube(), {}, {"lamp=" + file_of("washer.ldt")});
     const Light& lamp = world.scene.lights[0];
     EXPECT_GT(share_of_profile(world.scene, lamp, 45, 0), 1.5f * share_of_profile(world.scene, lamp, 45, 180));
     const Luminaire& luminaire = world.luminaires.at(0);
@@ -44,7 +44,7 @@ TEST(Luminaire, StaysWithTheSceneForEveryProgram) {
     const TempFolder folder;
     std::filesystem::copy_file(cube(), folder / "cube.gltf");
     std::filesystem::copy_file(file_of("downlight.ies"), folder / "downlight.ies");
-    const World world(folder / "cube.gltf", {});
+    const World world(folder / "cube.gltf", {}, {});
     Session session = open_session(world, folder.path());
     attach_file(session, 0, "nothing.ies");
     EXPECT_FALSE(session.reload);
@@ -55,7 +55,7 @@ TEST(Luminaire, StaysWithTheSceneForEveryProgram) {
     EXPECT_EQ(scene.lights[0].type, light_profile);
     EXPECT_EQ(run("bake", {folder / "cube.gltf", "--photons", "2000"}).exit_code, 0);
     std::string reason;
-    const World with_file(folder / "cube.gltf", photometry_texts(session.lighting.book, folder / "cube.gltf", {}));
+    const World with_file(folder / "cube.gltf", session.lighting.book, {});
     EXPECT_TRUE(try_load_map(folder / "cube.pmap", with_file.scene, reason)) << reason;
     EXPECT_FALSE(try_load_map(folder / "cube.pmap", world.scene, reason)) << "a map of other lamps";
     attach_file(session, 0, "");
@@ -70,7 +70,7 @@ TEST(Luminaire, AnotherFileOfTheOptionReplacesTheOneKept) {
 }
 
 TEST(Luminaire, TheSameSessionGoesOnInTheBuildingWithOtherLamps) {
-    const World before(cube(), {}), after(cube(), {"lamp=" + file_of("batwing.ies")});
+    const World before(cube(), {}, {}), after(cube(), {}, {"lamp=" + file_of("batwing.ies")});
     Session session(before, "");
     session.walker.eye += vec3(0.3f, 0, 0.2f);
     session.lighting.board[0].dimmer = 0.4f;

@@ -11,7 +11,7 @@ namespace lw {
 struct Room {
     explicit Room(const std::string& name = "cornell.gltf", vk::Extent2D pixels = {96, 128}, uint64_t photons = 30'000)
         : size(pixels),
-          world(LUMENWALK_SOURCE_DIR "/data/" + name, {}),
+          world(LUMENWALK_SOURCE_DIR "/data/" + name, {}, {}),
           map(std::make_shared<const PhotonMap>(build_photon_map(
               world.scene, world.caster, shoot_photons(world.scene, world.caster, {photons, 1}), {photons, 0, 60, 1}))),
           device({"llvmpipe", true, {}}),

@@ -18,7 +18,7 @@ size_t different_pixels(const Rgb8Image& a, const Rgb8Image& b) {
 TEST(Viewer, WhatTheUserDoesIsOnTheScreenWithinTwoFrames) {
     SKIP_WITHOUT_DISPLAY();
     const Display display;
-    const World world(LUMENWALK_SOURCE_DIR "/data/cornell.gltf", {});
+    const World world(LUMENWALK_SOURCE_DIR "/data/cornell.gltf", {}, {});
     const auto map = std::make_shared<const PhotonMap>(build_photon_map(
         world.scene, world.caster, shoot_photons(world.scene, world.caster, {10'000, 1}), {10'000, 0, 60, 1}));
     const TempFolder folder;
@@ -49,7 +49,7 @@ TEST(Viewer, WhatTheUserDoesIsOnTheScreenWithinTwoFrames) {
 TEST(Viewer, APictureThatIsNoLightIsNotSaved) {
     SKIP_WITHOUT_DISPLAY();
     const Display display;
-    const World world(LUMENWALK_SOURCE_DIR "/data/cube.gltf", {});
+    const World world(LUMENWALK_SOURCE_DIR "/data/cube.gltf", {}, {});
     PhotonMap map = build_photon_map(world.scene, world.caster, shoot_photons(world.scene, world.caster, {2'000, 1}),
                                      {2'000, 0, 60, 1});
     const TempFolder folder;

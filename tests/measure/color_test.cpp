@@ -9,8 +9,7 @@
 #include "measure/survey.h"
 #include "photons/shoot.h"
 #include "scene/ambiance.h"
-#include "scene/camera.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
 
 namespace lw {
 namespace {

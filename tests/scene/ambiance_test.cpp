@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "programs/command.h"
 #include "scene/gltf.h"
+#include "scene/lamp_factors.h"
 
 namespace lw {
 namespace {
