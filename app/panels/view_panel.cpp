@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "app/measuring/metering.h"
 #include "app/panels/panels.h"
@@ -12,16 +14,42 @@
 namespace lw {
 namespace {
 
-constexpr const char* view_names[view_count] = {
-    "shaded",  "illuminance, lx",      "luminance, cd/m2", "difference, lx",    "difference, %",
-    "photons", "photons per estimate", "bandwidth, cm",    "estimated error, %"};
-constexpr const char* curve_names[curve_count] = {"neutral (Khronos)", "linear, clipped", "soft (Reinhard)"};
+/// An entry of a combo box: the value it stands for and what the user reads.
+struct Entry {
+    uint value;
+    const char* text;
+};
+
+constexpr Entry views[] = {{view_shaded, "shaded"},
+                           {view_illuminance, "illuminance, lx"},
+                           {view_luminance, "luminance, cd/m2"},
+                           {view_difference, "difference, lx"},
+                           {view_relative_difference, "difference, %"},
+                           {view_photons, "photons"},
+                           {view_photon_count, "photons per estimate"},
+                           {view_bandwidth, "bandwidth, cm"},
+                           {view_error, "estimated error, %"}};
+constexpr Entry curves[] = {
+    {curve_neutral, "neutral (Khronos)"}, {curve_linear, "linear, clipped"}, {curve_soft, "soft (Reinhard)"}};
+constexpr Entry divisors[] = {{0, "automatic"}, {1, "all"}, {2, "half"}, {3, "third"}, {4, "quarter"}};
+static_assert(std::size(views) == view_count && std::size(curves) == curve_count);
+
+/// A combo box that sets `value` to that of the chosen entry.
+void choose(const char* label, std::span<const Entry> entries, uint& value) {
+    const auto is_value = [&](const Entry& e) { return e.value == value; };
+    const auto now = std::find_if(entries.begin(), entries.end(), is_value);
+    if (!ImGui::BeginCombo(label, now == entries.end() ? "" : now->text)) return;
+    for (const Entry& e : entries) {
+        if (ImGui::Selectable(e.text, e.value == value)) value = e.value;
+        if (e.value == value) ImGui::SetItemDefaultFocus();
+    }
+    ImGui::EndCombo();
+}
 
 void draw_view_choice(Session& s) {
     Viewing& v = s.viewing;
-    int view = int(v.view);
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::Combo("##view", &view, view_names, int(view_count))) v.view = uint(view);
+    choose("##view", views, v.view);
     ImGui::Checkbox("reflections of lamps", &v.reflections);
     if (v.view == view_shaded || v.view == view_photons) return;
     ImGui::Checkbox("auto range", &v.auto_range);
@@ -44,9 +72,8 @@ void draw_exposure(Viewing& v) {
     ImGui::SetNextItemWidth(150);
     ImGui::SliderFloat("EV", &v.exposure_ev, -4, 18, "%.2f");
     if (ImGui::IsItemEdited()) v.auto_exposure = false;
-    int curve = int(v.curve);
     ImGui::SetNextItemWidth(150);
-    if (ImGui::Combo("curve", &curve, curve_names, int(curve_count))) v.curve = uint(curve);
+    choose("curve", curves, v.curve);
 }
 
 void draw_comparison(Session& s) {
@@ -80,11 +107,11 @@ void draw_comparison(Session& s) {
 }
 
 void draw_quality(Viewing& v, const FrameStatistics& statistics) {
-    constexpr const char* modes[] = {"exact: k nearest photons", "smooth: photons, one pass",
-                                     "cached: irradiance of the bake"};
-    int mode = int(v.gather.mode);
+    constexpr Entry modes[] = {{gather_mode_exact, "exact: k nearest photons"},
+                               {gather_mode_smooth, "smooth: photons, one pass"},
+                               {gather_mode_cached, "cached: irradiance of the bake"}};
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::Combo("##mode", &mode, modes, 3)) v.gather.mode = uint(mode);
+    choose("##mode", modes, v.gather.mode);
     int neighbours = int(v.gather.neighbours), rays = int(v.gather.shadow_rays), samples = int(v.max_samples);
     ImGui::SetNextItemWidth(110);
     if (ImGui::SliderInt("photons per estimate", &neighbours, 10, 1000, "%d", ImGuiSliderFlags_Logarithmic))
@@ -93,9 +120,8 @@ void draw_quality(Viewing& v, const FrameStatistics& statistics) {
     if (ImGui::SliderInt("shadow rays", &rays, 0, 64)) v.gather.shadow_rays = uint(std::clamp(rays, 0, 64));
     ImGui::SetNextItemWidth(110);
     if (ImGui::SliderInt("views while still", &samples, 1, 256)) v.max_samples = uint(std::clamp(samples, 1, 4096));
-    int divisor = int(v.divisor);
     ImGui::SetNextItemWidth(110);
-    if (ImGui::Combo("pixels in motion", &divisor, "automatic\0all\0half\0third\0quarter\0")) v.divisor = uint(divisor);
+    choose("pixels in motion", divisors, v.divisor);
     if (statistics.error)
         ImGui::Text("estimated error %.1f %%, 95th percentile %.1f %%", double(statistics.error->x),
                     double(statistics.error->y));

@@ -13,11 +13,13 @@ namespace lw {
 
 /// Who finds the triangles that rays meet: the device's ray queries (VK_KHR_ray_query), or a traversal in compute.
 enum class Rays { fastest, queries, compute };  // fastest: queries, but compute where both run on a processor
-inline const std::vector<std::string> rays_names{"fastest", "queries", "compute"};
+/// By their names in options.
+inline const std::vector<std::pair<std::string, Rays>> rays_names{
+    {"fastest", Rays::fastest}, {"queries", Rays::queries}, {"compute", Rays::compute}};
 inline constexpr const char* rays_help =
     "who traces the rays of a picture: compute, queries (VK_KHR_ray_query, an error on a device without), or fastest: "
     "queries on a GPU that has them, else compute";
-/// One of rays_names.
+/// The one of this name, which must be among rays_names.
 Rays rays_named(const std::string& name);
 
 struct DeviceSettings {

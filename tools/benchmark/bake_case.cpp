@@ -19,8 +19,6 @@ const std::vector<GatherMode>& gather_modes() {
     return modes;
 }
 
-GatherSettings default_gather() { return {}; }
-
 const char* name_of_mode(uint mode) {
     for (const GatherMode& m : gather_modes())
         if (m.mode == mode) return m.name;
@@ -44,14 +42,12 @@ BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesy
     std::filesystem::remove(file);
 }
 
-uint64_t bytes_of(const PhotonMap& map) { return map.bytes(); }
-
 double references_per_photon(const PhotonMap& map) {
     return double(map.places.size()) / double(std::max<uint64_t>(1, map.stored_photons));
 }
 
 double bytes_per_photon(const PhotonMap& map) {
-    return double(bytes_of(map)) / double(std::max<uint64_t>(1, map.stored_photons));
+    return double(map.bytes()) / double(std::max<uint64_t>(1, map.stored_photons));
 }
 
 CaseOnDevice::CaseOnDevice(const Device& device, const BakedCase& baked) : device_(device) {

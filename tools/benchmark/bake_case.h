@@ -27,8 +27,6 @@ struct GatherMode {
 
 /// Every mode that GatherSettings has; the sections iterate over this table.
 const std::vector<GatherMode>& gather_modes();
-/// GatherSettings as the programs use them without options.
-GatherSettings default_gather();
 const char* name_of_mode(uint mode);
 
 struct BakeCost {
@@ -51,8 +49,6 @@ struct BakedCase {
     BakeCost cost;
 };
 
-/// Bytes of the arrays of a map in memory; on the device they are the same.
-uint64_t bytes_of(const PhotonMap& map);
 double references_per_photon(const PhotonMap& map);
 double bytes_per_photon(const PhotonMap& map);
 

@@ -43,7 +43,7 @@ std::vector<Row> measure_series(const Bench& bench, const Subject& subject, cons
         const BakedCase baked(subject.scene, bake, bench.folder);
         const ReferenceView view{baked.scene.cameras[0], subject.side, subject.side, subject.samples};
         const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster, view);
-        GatherSettings gather = default_gather();
+        GatherSettings gather;
         gather.mode = wanted.mode;
         gather.neighbours = wanted.neighbours;
         const TimedFrame frame =

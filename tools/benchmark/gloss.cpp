@@ -137,7 +137,7 @@ std::vector<Row> measure_room(const Bench& bench, const Room& described) {
     std::vector<Row> rows;
     for (uint views : {1u, 8u, 64u, 256u, 1024u}) {
         if (views > bench.pick(256u, described.max_views)) break;
-        const TimedFrame frame = room.render(default_gather(), views < 32 ? 3 : 1, views);
+        const TimedFrame frame = room.render(GatherSettings(), views < 32 ? 3 : 1, views);
         Row row{{"room", described.file},
                 {"material", described.material},
                 {"roughness", described.roughness},

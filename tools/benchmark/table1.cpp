@@ -147,7 +147,7 @@ std::vector<Table> measure_table1(const Bench& bench) {
                                          {mode.mode, wanted}));
     bake.direct_in_photons = false;
     const BakedCase exact_direct(make_room({}), bake, bench.folder);
-    const GatherSettings fast = default_gather();
+    const GatherSettings fast;
     rows.push_back(measure_on_device(subject, exact_direct,
                                      (std::string(name_of_mode(fast.mode)) + ", the default").c_str(), fast));
     Table table{"table1", "times",

@@ -71,7 +71,7 @@ std::vector<Table> measure_work(const Bench& bench) {
             const bool is_room = scene == "room";
             const BakedCase baked(is_room ? make_room({}) : load_gltf(bench.scenes / scene), bake, bench.folder);
             const Bvh bvh = direct_in_photons ? Bvh{} : build_bvh(baked.scene);
-            for (const GatherSettings& gather : {default_gather(), moving, smooth, paper})
+            for (const GatherSettings& gather : {GatherSettings(), moving, smooth, paper})
                 table.rows.push_back(count_of({scene, is_room ? "" : "living", direct_in_photons, gather}, baked, bvh,
                                               500, bench.pick<size_t>(170, 17)));
         }
