@@ -23,16 +23,6 @@ uint chunk_count(uint64_t records, uint shift) {
     return uint(std::max<uint64_t>(1, (records + (1ull << shift) - 1) >> shift));
 }
 
-bool any_material(const Scene& scene, uint flags) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [&](const Material& m) { return (m.flags & flags) != 0; });
-}
-
-bool any_texture(const Scene& scene, TextureSlot Material::*slot) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [=](const Material& m) { return (m.*slot).texture >= 0; });
-}
-
 /// The least roughness of a surface with a specular lobe; 1 without any.
 float min_roughness(const Scene& scene) {
     float least = 1;
@@ -64,44 +54,14 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
         throw Error(scene.path.string() + ": the photon map belongs to another scene");
     check_device(device, scene, map, queries_rays_);
     if (map.has_coverage()) cells_.emplace(scene, map);
-    choose_constants(scene, map, bvh);
-    constants_.has_direct = !bvh.nodes.empty() && !map.settings.direct_in_photons;
-    constants_.has_visible_lamps = map.has_visible_lamps();
-    constants_.has_coverage = map.has_coverage();
+    constants_ = constants_of(scene, map, !bvh.nodes.empty());
+    constants_.chunk_shift = std::min(27u, uint(std::bit_width(max_texels_)) - 1u);
+    constants_.chunks = chunk_count(map.places.size(), constants_.chunk_shift);
+    min_lobe_ = bvh.nodes.empty() ? 1.0f : min_roughness(scene);
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
     set_light_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
-}
-
-void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh) {
-    constants_.has_uv0 = !scene.uv0.empty();
-    constants_.has_uv1 = !scene.uv1.empty();
-    constants_.has_colors = !scene.colors.empty();
-    constants_.has_tangents = !scene.tangents.empty();
-    constants_.has_textures = !scene.textures.empty();
-    constants_.has_directions = map.has_directions();
-    constants_.has_alpha = any_material(scene, material_alpha_mask | material_alpha_blend);
-    constants_.has_transmission = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                              [](const Material& m) { return m.transmission > 0; });
-    const bool can_follow = !bvh.nodes.empty();
-    min_lobe_ = can_follow ? min_roughness(scene) : 1.0f;
-    constants_.looks_through = can_follow && (constants_.has_transmission || any_material(scene, material_alpha_blend));
-    constants_.has_caustics = map.caustic_grids > 0;
-    constants_.first_caustic_map = uint(map.grids.size()) - map.caustic_grids;
-    constants_.first_cut = map.first_cut(0, constants_.first_caustic_map);
-    constants_.first_caustic_cut = map.first_cut(constants_.first_caustic_map, uint(map.grids.size()));
-    constants_.has_smooth_caustics = !map.smooth_caustics.empty();
-    constants_.has_shadow_masks = !map.shadow_masks.empty();
-    constants_.has_mesh_lamps = !scene.emitters.empty();
-    constants_.has_profiles = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                          [](const Light& light) { return light.type == light_profile; });
-    constants_.has_metallic_roughness_textures = any_texture(scene, &Material::metallic_roughness_texture);
-    constants_.has_emissive_textures = any_texture(scene, &Material::emissive_texture);
-    constants_.has_transmission_textures = any_texture(scene, &Material::transmission_texture);
-    constants_.chunk_shift = std::min(27u, uint(std::bit_width(max_texels_)) - 1u);
-    constants_.chunks = chunk_count(map.places.size(), constants_.chunk_shift);
-    constants_.heap_size = 1;
 }
 
 /// Each record in so many texels of four words.

@@ -57,7 +57,6 @@ class Resident {
     uint64_t ray_bytes() const;  // of these, what rays are found with
 
   private:
-    void choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh);
     void upload_scene(const Scene& scene);
     void upload_corners(const Scene& scene);
     void upload_map(const PhotonMap& map);
