@@ -1,7 +1,7 @@
 // Exact direct light by shadow rays through the BVH: one ray for a point, spot or directional lamp, `shadow_rays` for
 // an emissive mesh; none where the cell knows what a lamp lights, all over or by a mask; with shadow_rays = 0 none at
 // all, and shadows as sharp as masks and lattice. One text for C++ and GLSL. The including scope provides what
-// gather.glsl and rays.glsl need, the array emitters, the functions light_at, light_power, profile_value, cell_word,
+// gather.glsl and rays.glsl need, the array emitters, the functions light_at, lamp_power, profile_value, cell_word,
 // shadow_mask, and the constants has_mesh_lamps, has_profiles, has_emissive_textures, has_visible_lamps,
 // has_shadow_masks, has_smooth_caustics, has_shadow_rays, has_followed, light_count, shadow_rays, lobe_paths (per pixel
 // along a lobe), ray_epsilon, scene_size.
@@ -202,7 +202,7 @@ void add_lamp(uint i, LampVisibility visible, Surface s, vec3 n_geometric, vec3 
     Light lamp = light_at(i);
     bool mesh = lamp.type == light_mesh;
     bool beside_rays = leaves_lobe_out(s) && mesh;  // of its lobe, rays see the other part
-    vec3 weight = light_power(i) * visible.passed;
+    vec3 weight = lamp_power(i) * visible.passed;
     uint samples = mesh ? max(shadow_rays, 1u) : 1u;
     for (uint j = 0u; j < samples; ++j) {
         LightSample light = sample_punctual(lamp, s.position);

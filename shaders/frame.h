@@ -39,10 +39,10 @@ struct RayPixels {
 LW_CONST uint cluster_triangles = 64u;
 LW_CONST uint no_triangle = 0xffffffffu;
 
-/// What the user can dim and tint: photons of the light count `weight` (intensity x factor), its own glow `factor`. Two
-/// texels.
+/// What the user can dim and tint: photons of a lamp count `power` (intensity x factor), its own glow
+/// counts `factor`. Two texels.
 struct LampPower {
-    vec4 weight;  // RGB
+    vec4 power;   // RGB
     vec4 factor;  // RGB
 };
 

@@ -1,6 +1,6 @@
 // Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
 // The including scope provides the functions grid_at, is_cut (false for no_map), cell_start, photon_place, photon_flux,
-// photon_direction, light_power, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode,
+// photon_direction, lamp_power, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode,
 // neighbours, heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage,
 // has_followed. Needs photon_map.h and bsdf.glsl.
 
@@ -26,7 +26,7 @@ bool leaves_lobe_out(Surface s) LW_MEMBER { return has_followed && (s.flags & lo
 /// Adds photon `i` of the record `place`, weighted by `kernel`, to sums that add_up() completes.
 void add_photon(uint i, PhotonPlace place, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
-    vec3 flux = unpack_rgb9e5(photon_flux(i)) * light_power(light_of(place)) * kernel;
+    vec3 flux = unpack_rgb9e5(photon_flux(i)) * lamp_power(light_of(place)) * kernel;
     sum.irradiance += flux;
     if (!has_directions) return;
     bool lobe_left_out = leaves_lobe_out(s) && !is_unseen_by_rays(s, place);

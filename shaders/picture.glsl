@@ -123,7 +123,7 @@ uint cell_word(uint word) { return texelFetch(words_of_cells, int(word)).x; }
 
 uvec4 shadow_mask(uint i) { return texelFetch(shadow_masks, int(i)); }
 
-vec3 light_power(uint light) { return texelFetch(lamp_powers, int(2u * light)).xyz; }
+vec3 lamp_power(uint light) { return texelFetch(lamp_powers, int(2u * light)).xyz; }
 
 vec3 lamp_factor(uint light) { return texelFetch(lamp_powers, int(2u * light + 1u)).xyz; }
 

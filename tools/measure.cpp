@@ -110,7 +110,7 @@ void measure(lw::MeasureOptions& o) {
     const lw::Scene scene = lw::load_scene(o.scene, o.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::vector<lw::SensorSet> sets = sets_of(o, scene);
-    std::vector<lw::PowerSetting> ambiances = lw::ambiances_of(o, scene);
+    std::vector<lw::AmbianceFactors> ambiances = lw::ambiances_of(o, scene);
     check_outputs(o, scene);
     for (const std::string& camera : o.cameras) lw::find_camera(scene, camera);
     const lw::RayCaster caster(scene);

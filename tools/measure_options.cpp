@@ -138,10 +138,10 @@ void check_is_new(const char* option, const std::string& name, std::set<std::str
     if (!names.insert(name).second) throw Error(std::string(option) + " \"" + name + "\": there are two of this name");
 }
 
-std::vector<PowerSetting> ambiances_of(const MeasureOptions& o, const Scene& scene) {
-    std::vector<PowerSetting> ambiances;
+std::vector<AmbianceFactors> ambiances_of(const MeasureOptions& o, const Scene& scene) {
+    std::vector<AmbianceFactors> ambiances;
     if (o.ambiances.empty() || !o.powers.empty())
-        ambiances.push_back({o.powers.empty() ? "all" : "powers", parse_powers(scene, o.powers)});
+        ambiances.push_back({o.powers.empty() ? "all" : "powers", parse_factors(scene, o.powers)});
     std::set<std::string> names;
     for (const std::string& text : o.ambiances) {
         ambiances.push_back(parse_ambiance(text, scene));

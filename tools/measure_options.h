@@ -28,7 +28,7 @@ std::string misuse_of(const MeasureOptions& options);
 void check_is_new(const char* option, const std::string& name, std::set<std::string>& names);
 
 /// Those of --ambiance and --power; the lamps as in the file without either.
-std::vector<PowerSetting> ambiances_of(const MeasureOptions& options, const Scene& scene);
+std::vector<AmbianceFactors> ambiances_of(const MeasureOptions& options, const Scene& scene);
 
 /// Bright reflections of lamps in one view or along a walk (--reflections), traced without photons.
 void report_reflections(const MeasureOptions& options, const Scene& scene, const RayCaster& caster);

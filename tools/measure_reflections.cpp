@@ -38,15 +38,15 @@ void print_reflections(const MeasureOptions& o, const Scene& scene, const std::s
 }  // namespace
 
 void report_reflections(const MeasureOptions& o, const Scene& scene, const RayCaster& caster) {
-    const PowerSetting powers = ambiances_of(o, scene).back();
-    const std::vector<vec3> weights = light_powers(scene, powers.factors);
+    const AmbianceFactors ambiance = ambiances_of(o, scene).back();
+    const std::vector<vec3> powers = lamp_powers(scene, ambiance.factors);
     ReflectionSettings settings;
     settings.limits = o.limits;
     settings.seed = o.survey.meter.seed;
     std::vector<ViewedReflections> views;
     for (const Camera& camera : reflection_views(o, scene)) {
-        views.push_back({camera.name, find_reflections(scene, caster, camera, weights, settings)});
-        print_reflections(o, scene, camera.name, powers.name, views.back().report);
+        views.push_back({camera.name, find_reflections(scene, caster, camera, powers, settings)});
+        print_reflections(o, scene, camera.name, ambiance.name, views.back().report);
     }
     if (o.reflections_csv.empty()) return;
     if (views.size() == 1)

@@ -151,7 +151,7 @@ void take_screenshot(const Options& o) {
                              .rays = lw::rays_named(o.rays)});
     const lw::Bvh bvh = lw::build_bvh(scene);
     lw::Resident resident(device, scene, map, bvh);
-    resident.set_light_factors(factors);
+    resident.set_lamp_factors(factors);
     const vk::Extent2D size = picture_size(o, camera);
     lw::Renderer renderer(device, resident, size.width, size.height);
     const lw::GatherSettings gather{gather_mode(o.gather), o.neighbours, o.shadow_rays, o.paths, o.followed_roughness};

@@ -17,8 +17,8 @@ namespace {
 
 Pin measured(const Session& s, const PhotonMap& map, const Hit& hit, vec3 viewer) {
     const World& w = s.world;
-    const std::vector<vec3> weights = light_powers(w.scene, factors_now(s.lighting));
-    return {hit, viewer, measure(w.scene, w.caster, map, w.bvh, weights, hit, viewer)};
+    const std::vector<vec3> powers = lamp_powers(w.scene, factors_now(s.lighting));
+    return {hit, viewer, measure(w.scene, w.caster, map, w.bvh, powers, hit, viewer)};
 }
 
 std::string quoted(const std::string& text) {

@@ -30,7 +30,7 @@ DeviceSettings with_window(DeviceSettings settings) {
 ReflectionView reflection_view_of(const Session& s, vk::Extent2D size) {
     const Camera camera = camera_of(s.walker, s.yfov, s.near);
     return {camera.position, camera.rotation, camera.yfov, uvec2(size.width, size.height),
-            light_powers(s.world.scene, factors_now(s.lighting))};
+            lamp_powers(s.world.scene, factors_now(s.lighting))};
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class LiveView {
     void record_visibility(vk::CommandBuffer commands, const Frame& frame) const;
     /// Records the light of one sample into a picture: frame.sample_index 0 overwrites, others are added. For a running
     /// sum give every frame the sample_weight 1. Sample 0, all there is in motion, follows the lobes of mirrors alone;
-    /// sample 1 follows all and replaces it in the sum. `lamps`: setting of Resident::set_light_factors(). Throws Error
+    /// sample 1 follows all and replaces it in the sum. `lamps`: setting of Resident::set_lamp_factors(). Throws Error
     /// for too many neighbours of the exact mode.
     void record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
                       uint lamps = 0, Rows rows = {});

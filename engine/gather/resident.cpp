@@ -61,7 +61,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
-    set_light_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
+    set_lamp_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
 }
 
 /// Each record in so many texels of four words.
@@ -215,25 +215,25 @@ void Resident::upload_chunks(uint binding, vk::Format format, std::span<const T>
         for (uint i = count; i < max_chunks; ++i) set.set_texels(binding, *views_.back(), i);  // never read
 }
 
-void Resident::set_light_factors(std::span<const float> factors, uint setting) {
-    set_light_factors(std::vector<vec3>(factors.begin(), factors.end()), setting);
+void Resident::set_lamp_factors(std::span<const float> factors, uint setting) {
+    set_lamp_factors(std::vector<vec3>(factors.begin(), factors.end()), setting);
 }
 
-void Resident::set_light_factors(std::span<const vec3> factors, uint setting) {
+void Resident::set_lamp_factors(std::span<const vec3> factors, uint setting) {
     assert(factors.size() == scene_->lights.size());
     Lamps& lamps = lamps_[setting];
     const bool first = lamps.powers.size() == 0;
     if (!first && std::equal(factors.begin(), factors.end(), lamps.factors.begin())) return;
     if (first) make_lamps(setting);
     lamps.factors.assign(factors.begin(), factors.end());
-    std::vector<LampPower> powers;
-    std::vector<vec3> weights;
+    std::vector<LampPower> records;
+    std::vector<vec3> powers;
     for (size_t i = 0; i < factors.size(); ++i) {
-        weights.push_back(scene_->lights[i].intensity * factors[i]);
-        powers.push_back({vec4(weights[i], 0), vec4(factors[i], 0)});
+        powers.push_back(scene_->lights[i].intensity * factors[i]);
+        records.push_back({vec4(powers[i], 0), vec4(factors[i], 0)});
     }
-    write_cells(lamps, weights);
-    write_bytes(*device_, lamps.powers, powers.data(), powers.size() * sizeof(LampPower));
+    write_cells(lamps, powers);
+    write_bytes(*device_, lamps.powers, records.data(), records.size() * sizeof(LampPower));
 }
 
 void Resident::make_lamps(uint setting) {
@@ -248,10 +248,10 @@ void Resident::make_lamps(uint setting) {
     descriptors_[setting].set_texels(binding_cell_light, *views_.back());
 }
 
-void Resident::write_cells(Lamps& lamps, std::span<const vec3> weights) const {
+void Resident::write_cells(Lamps& lamps, std::span<const vec3> powers) const {
     if (!cells_) return;
     std::vector<uvec4> light;
-    lamps.inverse_irradiance_scale = 1 / cells_->sum(weights, light);
+    lamps.inverse_irradiance_scale = 1 / cells_->sum(powers, light);
     write_bytes(*device_, lamps.cells, light.data(), light.size() * sizeof(uvec4));
 }
 

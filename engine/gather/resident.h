@@ -34,8 +34,8 @@ class Resident {
     /// Dims the lights: one factor per light of the scene, >= 0, or one per channel. Setting 0 or 1: two of them lie on
     /// the device, so that one frame can show both; the second takes memory from its first use on. The same factors
     /// again cost nothing.
-    void set_light_factors(std::span<const float> factors, uint setting = 0);
-    void set_light_factors(std::span<const vec3> factors, uint setting = 0);
+    void set_lamp_factors(std::span<const float> factors, uint setting = 0);
+    void set_lamp_factors(std::span<const vec3> factors, uint setting = 0);
 
     const Scene& scene() const { return *scene_; }
     const DescriptorSet& descriptors(uint setting = 0) const { return descriptors_[setting]; }
@@ -70,7 +70,7 @@ class Resident {
         float inverse_irradiance_scale = 1;
     };
     void make_lamps(uint setting);
-    void write_cells(Lamps& lamps, std::span<const vec3> weights) const;
+    void write_cells(Lamps& lamps, std::span<const vec3> powers) const;
     template <class T>
     void upload_records(uint binding, std::span<const T> values, const std::string& what);
     template <class T>

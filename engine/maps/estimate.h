@@ -28,13 +28,13 @@ class PhotonEstimator : public SurfaceReader {
   public:
     static constexpr uint heap_size = 1024;  // most neighbours of the exact mode
 
-    /// `light_powers`: RGB power of each light in its own unit (intensity x dimmer).
-    PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_powers,
+    /// `lamp_powers`: RGB power of each light in its own unit (intensity x dimmer).
+    PhotonEstimator(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& lamp_powers,
                     GatherSettings settings, const Bvh& bvh = no_shadows())
         : SurfaceReader(scene),
           triangle_maps(map.triangle_maps.data()),
           map_(map),
-          weights_(light_powers),
+          weights_(lamp_powers),
           gather_mode(settings.mode),
           neighbours(settings.neighbours),
           max_radius(map.settings.radius),
@@ -65,13 +65,13 @@ class PhotonEstimator : public SurfaceReader {
         const CellLight cells(scene, map);
         cell_words_ = cells.words();
         shadow_masks_ = cells.masks();
-        if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(light_powers, cell_light_);
+        if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(lamp_powers, cell_light_);
     }
 
     PhotonPlace photon_place(uint i) const { return map_.places[i]; }
     uint photon_flux(uint i) const { return map_.fluxes[i]; }
     uint photon_direction(uint i) const { return map_.directions[i]; }
-    vec3 light_power(uint light) const { return weights_[light]; }
+    vec3 lamp_power(uint light) const { return weights_[light]; }
     vec3 lamp_factor(uint light) const {
         const vec3 full = lights[light].intensity;
         vec3 factor(1);

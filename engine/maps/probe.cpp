@@ -29,8 +29,8 @@ struct Sum {
 class Meter : public PhotonEstimator {
   public:
     Meter(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
-          const std::vector<vec3>& weights)
-        : PhotonEstimator(scene, map, weights, {gather_mode_smooth, photons_per_estimate, 64}, bvh),
+          const std::vector<vec3>& powers)
+        : PhotonEstimator(scene, map, powers, {gather_mode_smooth, photons_per_estimate, 64}, bvh),
           caster_(caster),
           emitters_(scene) {}
 
@@ -74,7 +74,7 @@ class Meter : public PhotonEstimator {
         Sum sum;
         visit_photons(grid, local, radius, [&](uint i, PhotonPlace photon, float d2) {
             const uint lamp = light_of(photon);
-            const float lux = luminance(unpack_rgb9e5(photon_flux(i)) * light_power(lamp)) * (share * (1 - d2 / r2));
+            const float lux = luminance(unpack_rgb9e5(photon_flux(i)) * lamp_power(lamp)) * (share * (1 - d2 / r2));
             sum.value += lux;
             sum.squares += lux * lux;
             if (!shares) return;
@@ -113,7 +113,7 @@ class Meter : public PhotonEstimator {
         const float cosine = in ? dot(in->to_light, m.normal) : 0.0f;
         if (cosine <= 0) return 0;
         const vec3 passed = caster_.transmittance(caster_.offset(m.position, m.normal), in->position);
-        return luminance(in->radiance * passed * light_power(lamp)) * cosine / (in->pdf > 0 ? in->pdf : 1.0f);
+        return luminance(in->radiance * passed * lamp_power(lamp)) * cosine / (in->pdf > 0 ? in->pdf : 1.0f);
     }
 
     float add_direct(uint lamp, Measurement& m) const {
@@ -154,13 +154,13 @@ std::optional<Hit> seen_from(const Scene& scene, const RayCaster& caster, vec3 o
 }
 
 Measurement measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
-                    const std::vector<vec3>& weights, const Hit& hit, vec3 viewer) {
-    return Meter(scene, caster, map, bvh, weights).measure_at(hit, viewer);
+                    const std::vector<vec3>& powers, const Hit& hit, vec3 viewer) {
+    return Meter(scene, caster, map, bvh, powers).measure_at(hit, viewer);
 }
 
 std::vector<Measurement> measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
-                                 const std::vector<vec3>& weights, std::span<const SeenPlace> places) {
-    const Meter meter(scene, caster, map, bvh, weights);
+                                 const std::vector<vec3>& powers, std::span<const SeenPlace> places) {
+    const Meter meter(scene, caster, map, bvh, powers);
     std::vector<Measurement> measurements(places.size());
     parallel_for(places.size(), [&](size_t i) { measurements[i] = meter.measure_at(places[i].hit, places[i].viewer); });
     return measurements;

@@ -29,9 +29,9 @@ struct Measurement {
 /// What a view ray along unit `direction` meets, glass and holes looked through as the picture does.
 std::optional<Hit> seen_from(const Scene& scene, const RayCaster& caster, vec3 origin, vec3 direction);
 
-/// Measures where `hit` lies, on the side of `viewer`. `weights`: RGB power of each lamp (light_powers()).
+/// Measures where `hit` lies, on the side of `viewer`. `powers`: RGB power of each lamp (lamp_powers()).
 Measurement measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
-                    const std::vector<vec3>& weights, const Hit& hit, vec3 viewer);
+                    const std::vector<vec3>& powers, const Hit& hit, vec3 viewer);
 
 /// A point of a surface and from where it is looked at.
 struct SeenPlace {
@@ -41,6 +41,6 @@ struct SeenPlace {
 
 /// The same for many places at once.
 std::vector<Measurement> measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
-                                 const std::vector<vec3>& weights, std::span<const SeenPlace> places);
+                                 const std::vector<vec3>& powers, std::span<const SeenPlace> places);
 
 }  // namespace lw

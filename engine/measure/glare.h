@@ -29,11 +29,11 @@ std::string rating_text(double rating);
 /// The emissive meshes that the eye of the camera sees, anywhere before it, through thin glass too; one source per
 /// lamp. Punctual lamps have no size and are left out. `samples` points are looked at per lamp.
 std::vector<GlareSource> find_visible_lamps(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                                            std::span<const vec3> weights, uint samples = 1024);
+                                            std::span<const vec3> powers, uint samples = 1024);
 
 /// Background luminance (CIE 117): vertical illuminance at the eye, without the light that comes straight from the
 /// lamps, over pi. Path traced with `samples` paths.
 double background_luminance(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                            std::span<const vec3> weights, uint samples = 4096);
+                            std::span<const vec3> powers, uint samples = 4096);
 
 }  // namespace lw

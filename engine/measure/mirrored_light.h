@@ -15,8 +15,8 @@ using MirroredLight = std::map<std::pair<uint, uint>, double>;
 /// Follows view rays. All references must outlive it. Thread-safe.
 class MirrorTracer {
   public:
-    MirrorTracer(const Scene& scene, const RayCaster& caster, std::span<const vec3> weights)
-        : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), weights_(weights) {}
+    MirrorTracer(const Scene& scene, const RayCaster& caster, std::span<const vec3> powers)
+        : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), powers_(powers) {}
 
     /// Adds `share` of what the ray brings: what each sheet of thin glass on its way reflects, and the surface behind.
     void add(vec3 origin, vec3 direction, double share, Rng& rng, MirroredLight& light) const;
@@ -30,7 +30,7 @@ class MirrorTracer {
     const RayCaster& caster_;
     SurfaceReader surfaces_;
     Emitters emitters_;
-    std::span<const vec3> weights_;
+    std::span<const vec3> powers_;
 };
 
 }  // namespace lw

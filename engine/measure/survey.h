@@ -10,14 +10,14 @@
 namespace lw {
 
 /// A named set of powers.
-struct PowerSetting {
+struct AmbianceFactors {
     std::string name;
     std::vector<vec3> factors;  // per lamp and colour, of the power in the file
 };
 
 /// "NAME" of the scene's ambiances, or "NAME: LAMP=FACTOR[@KELVIN], ..." (lamps not named stay at 1). Throws Error
 /// for an unknown name or lamp.
-PowerSetting parse_ambiance(const std::string& text, const Scene& scene);
+AmbianceFactors parse_ambiance(const std::string& text, const Scene& scene);
 
 struct MeasuredSet {
     SensorSet set;
@@ -38,7 +38,7 @@ struct SurveySettings {
 
 struct Survey {
     std::vector<MeasuredSet> sets;
-    std::vector<PowerSetting> ambiances;
+    std::vector<AmbianceFactors> ambiances;
     float maintenance = 1;
     PhotonMap map;         // that was read last
     uint64_t bakes = 0;    // maps made to reach the error
@@ -51,7 +51,7 @@ struct Survey {
 /// small enough. With settings.error the scene is baked again with the photons that the rest needs, at the map's own
 /// settings. Sensors under 1 lx, and blocked ones, are not waited for. Throws Error when interrupted.
 Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
-                   std::vector<PowerSetting> ambiances, const SurveySettings& settings);
+                   std::vector<AmbianceFactors> ambiances, const SurveySettings& settings);
 
 /// Beside the values of planar sensors that lie on surfaces: what a pin of the walkthrough reads there, from the
 /// photons on that very surface (maps/probe.h), another estimator of the same light.
@@ -61,10 +61,10 @@ void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey);
 void trace_survey(const Scene& scene, const RayCaster& caster, uint64_t paths, uint64_t seed, Survey& survey);
 
 /// The sums of one set in one ambiance.
-Statistics statistics_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance);
+Statistics statistics_of(const MeasuredSet& measured, const AmbianceFactors& ambiance, float maintenance);
 
 /// The values of one set in one ambiance.
-std::vector<Value> values_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance);
+std::vector<Value> values_of(const MeasuredSet& measured, const AmbianceFactors& ambiance, float maintenance);
 
 /// How the values of a set agree with the path tracer.
 struct Agreement {
@@ -72,7 +72,7 @@ struct Agreement {
     size_t inside = 0;      // whose difference lies within the 90 % interval of the difference
     double difference = 0;  // mean of value / traced - 1
 };
-Agreement agreement_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance);
+Agreement agreement_of(const MeasuredSet& measured, const AmbianceFactors& ambiance, float maintenance);
 
 /// Whether a value and a traced one agree: their difference lies in the interval, the traced one's error added.
 bool agrees(const Value& value, const Traced& traced, float maintenance);

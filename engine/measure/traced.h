@@ -20,8 +20,8 @@ struct TraceSettings {
     uint64_t seed = 1;
 };
 
-/// `weights`: RGB power of each lamp (light_powers()). Sensors on surfaces stand 1 mm off, as when they are read.
-std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& weights,
+/// `powers`: RGB power of each lamp (lamp_powers()). Sensors on surfaces stand 1 mm off, as when they are read.
+std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& powers,
                                   std::span<const Sensor> sensors, const TraceSettings& settings);
 
 }  // namespace lw

@@ -13,7 +13,7 @@ Rgb8Image plan_view(const Scene& scene, const RayCaster& caster, const SensorSet
 
 /// Illuminance of what a camera sees, row by row in lux, 0 where it sees nothing: from the photons and shadow rays.
 std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
-                                     const Camera& camera, const PowerSetting& ambiance, int width, int height);
+                                     const Camera& camera, const AmbianceFactors& ambiance, int width, int height);
 
 /// Bounds of the colours of such a picture, lx: all it shows but the darkest and the brightest hundredth, three decades
 /// at most; places where nothing is seen do not count.

@@ -45,7 +45,7 @@ size_t find_lamp(const Scene& scene, const std::string& name, const std::string&
     throw Error(where + "; there are: " + names);
 }
 
-std::vector<vec3> parse_powers(const Scene& scene, const std::vector<std::string>& texts) {
+std::vector<vec3> parse_factors(const Scene& scene, const std::vector<std::string>& texts) {
     std::vector<vec3> factors(scene.lights.size(), vec3(1));
     for (const std::string& text : texts) {
         const size_t equals = text.rfind('=');
@@ -65,7 +65,7 @@ vec3 factor_of(const LampSetting& setting, vec3 intensity) {
     return setting.kelvin > 0 ? factor * filter_to_temperature(intensity, double(setting.kelvin)) : factor;
 }
 
-std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance) {
+std::vector<vec3> lamp_factors(const Scene& scene, const Ambiance& ambiance) {
     std::vector<vec3> factors(scene.lights.size(), vec3(1));
     for (const auto& [lamp, setting] : ambiance) {
         const size_t i =
@@ -80,7 +80,7 @@ std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance) {
 }
 
 std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, const std::vector<std::string>& powers) {
-    std::vector<vec3> factors = parse_powers(scene, powers);
+    std::vector<vec3> factors = parse_factors(scene, powers);
     if (name.empty()) return factors;
     const std::filesystem::path path = default_ambiances_path(scene.path);
     const LampBook book = load_lamp_book(path);
@@ -90,7 +90,7 @@ std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, co
         for (const auto& [other, lamps] : book.ambiances) names += (names.empty() ? "" : ", ") + other;
         throw Error(path.string() + ": no ambiance \"" + name + "\"; there are: " + (names.empty() ? "none" : names));
     }
-    const std::vector<vec3> chosen = light_factors(scene, found->second);
+    const std::vector<vec3> chosen = lamp_factors(scene, found->second);
     for (size_t i = 0; i < factors.size(); ++i) factors[i] *= chosen[i];
     return factors;
 }

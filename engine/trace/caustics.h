@@ -25,13 +25,13 @@ bool casts_caustics(const Surface& s);
 
 /// True when the scene has a lamp of weight > 0 and a mirror, smooth glass or gloss that is
 /// followed as a mirror, or a metal or glass that casts caustics.
-bool has_caustics(const Scene& scene, std::span<const vec3> weights);
+bool has_caustics(const Scene& scene, std::span<const vec3> powers);
 
 /// Light that arrived from lamps by specular bounces and such surfaces only, on surfaces that cast no caustics.
 class Caustics {
   public:
     /// Traces a set; the result does not depend on the number of threads.
-    Caustics(const Scene& scene, const RayCaster& caster, std::span<const vec3> weights,
+    Caustics(const Scene& scene, const RayCaster& caster, std::span<const vec3> powers,
              const CausticSettings& settings);
 
     /// Irradiance at `point` on the side of unit `normal`, lux per RGB.

@@ -68,7 +68,7 @@ Truth traced(const PathTracer& tracer, const Measurement& m, uint64_t seed, int 
 
 /// Part of the places at which the interval holds the traced value.
 double coverage(const Baked& b, int samples) {
-    const std::vector<vec3> weights = light_powers(b.scene, {});
+    const std::vector<vec3> weights = lamp_powers(b.scene, {});
     const PathTracer tracer(b.scene, b.caster, weights);
     const std::vector<Place> places = random_places(b, 200);
     std::vector<int> holds(places.size());
@@ -101,7 +101,7 @@ TEST(Probe, HoldsThePathTracersIlluminanceAsOftenAsItSaysInTheApartment) {
 TEST(Probe, SharesAddUpToTheWholeAndFollowTheirLamps) {
     const Baked b("apartment.glb", 50'000);
     const Place place = random_places(b, 5).back();
-    std::vector<vec3> weights = light_powers(b.scene, {});
+    std::vector<vec3> weights = lamp_powers(b.scene, {});
     const Measurement all = measure(b.scene, b.caster, b.map, b.bvh, weights, place.hit, place.viewer);
     float sum = 0;
     for (const LampShare& share : all.lamps) sum += share.lux;

@@ -29,7 +29,7 @@ Scene two_chambers() {
     return lab.finish();
 }
 
-Survey survey_of(const Scene& scene, std::vector<SensorSet> sets, std::vector<PowerSetting> ambiances) {
+Survey survey_of(const Scene& scene, std::vector<SensorSet> sets, std::vector<AmbianceFactors> ambiances) {
     const RayCaster caster(scene);
     const PhotonMap map =
         build_photon_map(scene, caster, shoot_photons(scene, caster, {50'000, 1}), {50'000, 0, 60, 1});

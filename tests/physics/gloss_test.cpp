@@ -31,7 +31,7 @@ struct Room {
     Room(const std::string& file, const std::function<void(Scene&)>& change, uint64_t photons)
         : scene(changed(file, change)),
           caster(scene),
-          weights(light_powers(scene, {})),
+          weights(lamp_powers(scene, {})),
           map(build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1})),
           bvh(build_bvh(scene)) {}
     static Scene changed(const std::string& file, const std::function<void(Scene&)>& change) {
@@ -163,7 +163,7 @@ TEST(Gloss, ALampThatIsHalfThereSendsHalfItsLight) {
         Scene scene = load_gltf(file_in_data("cornell.gltf"));
         for (Material& m : scene.materials)
             if (m.emissive.y > 0) m.flags |= material_alpha_blend, m.alpha = alpha;
-        const std::vector<vec3> weights = light_powers(scene, {});
+        const std::vector<vec3> weights = lamp_powers(scene, {});
         PhotonMap dark;
         dark.settings.radius = 0.1f;
         dark.triangle_maps.assign(2 * scene.triangles.size(), no_map);

@@ -73,9 +73,9 @@ TEST(Ambiance, RefusesWhatIsMalformedAndNamesIt) {
 
 TEST(Ambiance, MultipliesThePowersOfItsLampsAndRefusesUnknownOnes) {
     const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/cornell.gltf");
-    EXPECT_EQ(light_factors(scene, {})[0], vec3(1));
-    EXPECT_EQ(light_factors(scene, {{"ceiling_lamp", {0.5f, vec3(1, 0.5f, 0)}}})[0], vec3(0.5f, 0.25f, 0));
-    EXPECT_THROW(light_factors(scene, {{"floor_lamp", {}}}), Error);
+    EXPECT_EQ(lamp_factors(scene, {})[0], vec3(1));
+    EXPECT_EQ(lamp_factors(scene, {{"ceiling_lamp", {0.5f, vec3(1, 0.5f, 0)}}})[0], vec3(0.5f, 0.25f, 0));
+    EXPECT_THROW(lamp_factors(scene, {{"floor_lamp", {}}}), Error);
 }
 
 TEST(Ambiance, DimsThePictureAsPowerDoes) {

@@ -26,7 +26,7 @@ const char* name_of_mode(uint mode) {
 }
 
 BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesystem::path& folder)
-    : scene(std::move(made)), weights(light_powers(scene, {})) {
+    : scene(std::move(made)), powers(lamp_powers(scene, {})) {
     const std::filesystem::path file = folder / "benchmark.pmap";
     cost.hierarchy = cost_of([&] { caster = std::make_unique<RayCaster>(scene); });
     const double before_mb = reset_peak_memory();

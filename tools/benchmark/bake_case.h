@@ -45,7 +45,7 @@ struct BakedCase {
     std::unique_ptr<RayCaster> caster;
     Photons photons;
     PhotonMap map;
-    std::vector<vec3> weights;  // RGB power of each lamp
+    std::vector<vec3> powers;  // RGB power of each lamp
     BakeCost cost;
 };
 
