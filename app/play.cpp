@@ -114,8 +114,8 @@ std::filesystem::path frame_name(const std::filesystem::path& folder, size_t i) 
 }  // namespace
 
 void play(const PlaySettings& settings) {
-    const LampBook book = load_lamp_book(default_ambiances_path(settings.scene));
-    const World world(settings.scene, book, settings.photometry);
+    const LampPresets presets = load_lamp_presets(default_ambiances_path(settings.scene));
+    const World world(settings.scene, presets, settings.photometry);
     const Path path = load_path(settings.path);
     const std::vector<vec3> factors = chosen_factors(world.scene, settings.ambiance, {});
     const auto map = std::make_shared<const PhotonMap>(load_photon_map(settings.map, world.scene));
@@ -147,7 +147,7 @@ void play(const PlaySettings& settings) {
         return times;
     };
     make(0);  // pipelines are made and the exposure is found before the clock runs
-    Divisor automatic;
+    DynamicResolution automatic;
     if (settings.divisor == 0) divisor = automatic.next(0, make(0).first, true);
     for (size_t i = 0; i < count; ++i) {
         adapt_to(viewing, renderer.readback(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));

@@ -81,7 +81,7 @@ void draw_comparison(Session& s) {
     ImGui::Checkbox("A | B", &c.on);
     ImGui::SameLine();
     if (ImGui::Button("keep these lamps as B")) {
-        c.board = s.lighting.board;
+        c.lamps = s.lighting.lamps;
         c.name = "kept";
         c.on = true;
     }
@@ -89,12 +89,12 @@ void draw_comparison(Session& s) {
     if (ImGui::BeginCombo("B", c.name.c_str())) {
         const auto choose = [&](const std::string& name, const Ambiance& ambiance) {
             std::vector<std::string> missing;
-            c.board = with_ambiance(s.world.scene, ambiance, missing);
+            c.lamps = with_ambiance(s.world.scene, ambiance, missing);
             c.name = name;
             c.on = true;
         };
         if (ImGui::Selectable("as in the file")) choose("as in the file", {});
-        for (const auto& [name, ambiance] : s.lighting.book.ambiances)
+        for (const auto& [name, ambiance] : s.lighting.presets.ambiances)
             if (ImGui::Selectable(name.c_str())) choose(name, ambiance);
         ImGui::EndCombo();
     }

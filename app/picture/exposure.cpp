@@ -69,7 +69,7 @@ std::optional<vec2> spread_of(const std::vector<ReadbackPixel>& readback) {
     return vec2(values[values.size() / 2], values[values.size() * 95 / 100]);
 }
 
-uint Divisor::next(uint wanted, const RendererTimes& last, bool still) {
+uint DynamicResolution::next(uint wanted, const RendererTimes& last, bool still) {
     if (wanted > 0) return wanted;
     if (last.drew && last.rows == 0) {
         fixed_ms_ = last.visibility_ms + last.view_ms;

@@ -19,7 +19,7 @@ std::optional<vec2> spread_of(const std::vector<ReadbackPixel>& readback);
 
 /// Chooses by how much the picture's sides are divided while moving, so that a frame takes about 66 ms: coarser when
 /// one takes a quarter longer, finer only after standing still, so that nothing flickers between sizes.
-class Divisor {
+class DynamicResolution {
   public:
     static constexpr uint most = 4;
 

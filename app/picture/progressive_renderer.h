@@ -18,7 +18,7 @@ struct DisplaySettings {
     bool bgr = false;    // byte order of the screen
 };
 
-/// What a frame is to show.
+/// What a frame is to viewer.
 struct FrameRequest {
     Camera camera;
     std::vector<vec3> factors_a, factors_b;  // factors; b empty: no comparison
@@ -48,15 +48,15 @@ class ProgressiveRenderer {
     /// Throws Error when the size is beyond the device.
     void resize(vk::Extent2D size);
 
-    /// Records a frame of shot and look; samples of the same shot add up.
+    /// Records a frame; samples of the same request add up.
     void record(vk::CommandBuffer commands, const FrameRequest& request, const DisplaySettings& display, uint slot);
     /// The next frame starts anew, whatever it shows.
     void forget() { drawn_.reset(); }
-    /// True when the next frame of this shot adds to the picture instead of starting anew.
+    /// True when the next frame of this request adds to the picture instead of starting anew.
     bool shows(const FrameRequest& request, uint view) const;
     const Buffer& screen() const { return live_->screen(); }
     uint samples() const { return samples_; }
-    /// True when more frames of the same shot would change nothing.
+    /// True when more frames of the same request would change nothing.
     bool is_finished(const FrameRequest& request) const;
     /// Values of the last frame of a slot, whose commands must have finished; empty when it showed another view.
     std::vector<ReadbackPixel> readback(uint slot, uint view) const;

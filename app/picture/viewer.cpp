@@ -72,10 +72,10 @@ void Viewer::frame(const BakingState& baking) {
 }
 
 void Viewer::take_input(const Events& events, float seconds) {
-    const Taken taken{overlay_.wants_mouse() && !window_.is_captured(), overlay_.wants_keyboard()};
-    apply_actions(session_, window_, events, taken, renderer_ ? &renderer_->map() : nullptr);
+    const PanelCapture capture{overlay_.wants_mouse() && !window_.is_captured(), overlay_.wants_keyboard()};
+    apply_actions(session_, window_, events, capture, renderer_ ? &renderer_->map() : nullptr);
     apply_buttons(session_, events.buttons);
-    advance(session_, walk_input(window_, events, taken, seconds), seconds);
+    advance(session_, walk_input(window_, events, capture, seconds), seconds);
     measure();
 }
 
@@ -118,12 +118,12 @@ void Viewer::draw_panels(const BakingState& baking, double now) {
 void Viewer::present(const OpenFrame& open, const BakingState& baking, double now) {
     if (renderer_) follow_picture(open.slot);
     draw_panels(baking, now);
-    if (renderer_) record_stage(open);
-    const PictureRequest wish = session_.picture_request;
+    if (renderer_) record_frame(open);
+    const PictureRequest request = session_.picture_request;
     presenter_.end(
         open, renderer_ ? &renderer_->screen() : nullptr,
-        [&](vk::CommandBuffer commands) { overlay_.record(commands, open.image); }, wish != PictureRequest::none);
-    if (wish != PictureRequest::none) keep_screenshot();
+        [&](vk::CommandBuffer commands) { overlay_.record(commands, open.image); }, request != PictureRequest::none);
+    if (request != PictureRequest::none) keep_screenshot();
 }
 
 /// What the frame before the last tells: times, exposure, range.
@@ -135,7 +135,7 @@ void Viewer::follow_picture(uint slot) {
     adapt_to(session_.viewing, renderer_->readback(slot, session_.viewing.view), seconds_);
 }
 
-void Viewer::record_stage(const OpenFrame& open) {
+void Viewer::record_frame(const OpenFrame& open) {
     const uint divisor = divisor_.next(session_.viewing.divisor, session_.statistics.times, renderer_->samples() > 1);
     FrameRequest request = frame_request_of(session_, divisor);
     if (!renderer_->shows(request, session_.viewing.view)) changed_ = last_;
@@ -156,10 +156,10 @@ void Viewer::estimate_error(const FrameRequest& request, uint slot) {
 }
 
 void Viewer::keep_screenshot() {
-    const PictureRequest wish = session_.picture_request;
+    const PictureRequest request = session_.picture_request;
     session_.picture_request = PictureRequest::none;
     try {
-        if (wish == PictureRequest::copy) {
+        if (request == PictureRequest::copy) {
             copy_to_clipboard(presenter_.shown());
             return tell(session_, "picture copied to the clipboard");
         }

@@ -33,7 +33,7 @@ class Viewer {
     void draw_panels(const BakingState& baking, double now);
     void present(const OpenFrame& open, const BakingState& baking, double now);
     void follow_picture(uint slot);
-    void record_stage(const OpenFrame& open);
+    void record_frame(const OpenFrame& open);
     void estimate_error(const FrameRequest& request, uint slot);
     void keep_screenshot();
 
@@ -47,7 +47,7 @@ class Viewer {
     double changed_ = 0;       // when the picture last began anew
     double last_, shown_;
     float seconds_ = 0;
-    Divisor divisor_;
+    DynamicResolution divisor_;
     ReflectionSearch reflections_;
     std::vector<vec3> measured_;  // factors of the lamps, place and view of the last measurement
     vec3 measured_eye_{0};

@@ -25,9 +25,9 @@ void tell(Session& session, const std::string& text, double seconds) {
     session.notice = {text, steady_clock::now() + shown};
 }
 
-void fade_to(Lighting& lighting, const LampBoard& board) {
+void fade_to(Lighting& lighting, const LampStates& lamps) {
     const std::vector<vec3> from = factors_now(lighting);
-    lighting.board = board;
+    lighting.lamps = lamps;
     lighting.fade.reset();
     if (lighting.fade_seconds > 0) lighting.fade = Fade{from, lighting.fade_seconds, 0};
 }
@@ -38,7 +38,7 @@ bool fly_to(Session& s, size_t index) {
     const Camera camera = index < cameras.size()
                               ? cameras[index]
                               : camera_of(s.bookmarks[index - cameras.size()], s.world.scene, s.yfov, s.near);
-    const Walker to = walker_at(camera, s.body, s.world.around);
+    const Walker to = walker_at(camera, s.body, s.world.collision);
     s.transition = ViewTransition{s.walker, to, s.yfov, camera.yfov};
     s.place = int(index);
     tell(s, camera.name, 2);
@@ -57,10 +57,10 @@ void advance(Session& s, const WalkInput& input, float seconds) {
         s.walker = walker_at(*s.transition);
         s.yfov = yfov_at(*s.transition);
         const bool interrupted = length(input.move) > 0 || length(input.turn) > 0;
-        if (interrupted) s.walker = land(s.walker, s.body, s.world.around);
+        if (interrupted) s.walker = land(s.walker, s.body, s.world.collision);
         if (interrupted || s.transition->passed >= s.transition->seconds) s.transition.reset();
     } else {
-        s.walker = walk(s.walker, input, seconds, s.body, s.world.around);
+        s.walker = walk(s.walker, input, seconds, s.body, s.world.collision);
     }
     if (std::optional<Fade>& fade = s.lighting.fade) {
         fade->passed += seconds;

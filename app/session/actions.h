@@ -7,8 +7,8 @@ namespace lw {
 /// Shows a line for a while, and prints it.
 void tell(Session& session, const std::string& text, double seconds = 5);
 
-/// Lights the board, fading from what is lit now.
-void fade_to(Lighting& lighting, const LampBoard& board);
+/// Lights the lamps, fading from what is lit now.
+void fade_to(Lighting& lighting, const LampStates& lamps);
 
 /// Flies to place `index`: the cameras of the scene, then the bookmarks. False when there is none.
 bool fly_to(Session& session, size_t index);

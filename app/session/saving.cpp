@@ -26,21 +26,21 @@ Value loaded_or_empty(const Load& load, std::string& trouble) {
 Session open_session(const World& world, std::filesystem::path output) {
     Session s(world, std::move(output));
     const std::filesystem::path& scene = world.scene.path;
-    s.lighting.book = loaded_or_empty<LampBook>([&] { return load_lamp_book(default_ambiances_path(scene)); },
-                                                s.lighting.book_trouble);
+    s.lighting.presets = loaded_or_empty<LampPresets>([&] { return load_lamp_presets(default_ambiances_path(scene)); },
+                                                      s.lighting.presets_error);
     s.bookmarks = loaded_or_empty<std::vector<Bookmark>>([&] { return load_bookmarks(default_bookmarks_path(scene)); },
-                                                         s.bookmarks_trouble);
+                                                         s.bookmarks_error);
     return s;
 }
 
-void save_book(Session& s, const std::string& what) {
+void save_presets(Session& s, const std::string& what) {
     const std::filesystem::path path = default_ambiances_path(s.world.scene.path);
-    if (!s.lighting.book_trouble.empty()) {
-        tell(s, s.lighting.book_trouble + "; put it right or move it away");
+    if (!s.lighting.presets_error.empty()) {
+        tell(s, s.lighting.presets_error + "; put it right or move it away");
         return;
     }
     try {
-        save_lamp_book(path, s.lighting.book);
+        save_lamp_presets(path, s.lighting.presets);
         tell(s, what + " saved in " + path.string());
     } catch (const Error& failure) {
         tell(s, failure.what());
@@ -55,16 +55,16 @@ void attach_file(Session& s, size_t lamp, const std::string& file) {
         return tell(s, failure.what(), 8);
     }
     if (file.empty())
-        s.lighting.book.photometry.erase(name);
+        s.lighting.presets.photometry.erase(name);
     else
-        s.lighting.book.photometry[name] = file;
-    save_book(s, "light distribution of \"" + name + "\"");
+        s.lighting.presets.photometry[name] = file;
+    save_presets(s, "light distribution of \"" + name + "\"");
     s.reload = true;
 }
 
 void add_bookmark(Session& s) {
-    if (!s.bookmarks_trouble.empty()) {
-        tell(s, s.bookmarks_trouble + "; put it right or move it away");
+    if (!s.bookmarks_error.empty()) {
+        tell(s, s.bookmarks_error + "; put it right or move it away");
         return;
     }
     const std::string name = "bookmark " + std::to_string(s.bookmarks.size() + 1);

@@ -10,7 +10,7 @@ namespace lw {
 Session open_session(const World& world, std::filesystem::path output);
 
 /// Keeps ambiances, groups and photometric files beside the scene; tells that `what` is saved, or why not.
-void save_book(Session& session, const std::string& what);
+void save_presets(Session& session, const std::string& what);
 
 /// Puts a photometric file (relative to the scene's folder) on a point or spot lamp, or takes it off (""); keeps that
 /// beside the scene and asks for the scene to be loaded anew. Tells what is wrong with a file.

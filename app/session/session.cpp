@@ -6,11 +6,11 @@ Session::Session(const World& w, std::filesystem::path folder)
     : world(w),
       output(std::move(folder)),
       body(body_for(w.scene)),
-      walker(walker_at(w.scene.cameras[0], body, w.around)),
+      walker(walker_at(w.scene.cameras[0], body, w.collision)),
       yfov(w.scene.cameras[0].yfov),
       near(w.scene.cameras[0].near) {
-    lighting.board.resize(w.scene.lights.size());
-    comparison.board = lighting.board;
+    lighting.lamps.resize(w.scene.lights.size());
+    comparison.lamps = lighting.lamps;
 }
 
 Session::Session(const World& w, const Session& before) : Session(w, before.output) {
@@ -18,7 +18,7 @@ Session::Session(const World& w, const Session& before) : Session(w, before.outp
     walker = before.walker;
     yfov = before.yfov;
     bookmarks = before.bookmarks;
-    bookmarks_trouble = before.bookmarks_trouble;
+    bookmarks_error = before.bookmarks_error;
     recording = before.recording;
     recorded_seconds = before.recorded_seconds;
     lighting = before.lighting;
@@ -31,7 +31,7 @@ Session::Session(const World& w, const Session& before) : Session(w, before.outp
 }
 
 std::vector<vec3> factors_now(const Lighting& lighting) {
-    const std::vector<vec3> target = factors_of(lighting.board);
+    const std::vector<vec3> target = factors_of(lighting.lamps);
     if (!lighting.fade) return target;
     return mixed(lighting.fade->from, target, lighting.fade->passed / lighting.fade->seconds);
 }
@@ -40,7 +40,7 @@ FrameRequest frame_request_of(const Session& s, uint divisor) {
     FrameRequest request;
     request.camera = camera_of(s.walker, s.yfov, s.near);
     request.factors_a = factors_now(s.lighting);
-    if (s.comparison.on && !is_inspection(s.viewing.view)) request.factors_b = factors_of(s.comparison.board);
+    if (s.comparison.on && !is_inspection(s.viewing.view)) request.factors_b = factors_of(s.comparison.lamps);
     request.gather = s.viewing.gather;
     request.max_samples = is_inspection(s.viewing.view) ? 1 : s.viewing.max_samples;
     request.divisor = divisor;

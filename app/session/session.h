@@ -6,7 +6,7 @@
 
 #include "app/measuring/fields.h"
 #include "app/picture/progressive_renderer.h"
-#include "app/session/lamp_board.h"
+#include "app/session/lamp_states.h"
 #include "app/session/world.h"
 #include "app/walk/places.h"
 #include "maps/probe.h"
@@ -20,20 +20,20 @@ struct Fade {
 };
 
 struct Lighting {
-    LampBoard board;
-    std::optional<Fade> fade;  // from what was lit before to the board
+    LampStates lamps;
+    std::optional<Fade> fade;  // from what was lit before to the lamps
     float fade_seconds = 1;
     int selected = -1;     // lamp
     int scrolled_to = -1;  // lamp that the panel has scrolled into view
     std::string search;
-    LampBook book;
-    std::string book_trouble;  // why the file beside the scene must not be overwritten, or ""
-    std::string current;       // ambiance chosen last
+    LampPresets presets;
+    std::string presets_error;  // why the file beside the scene must not be overwritten, or ""
+    std::string current;        // ambiance chosen last
 };
 
 struct Comparison {
     bool on = false;
-    LampBoard board;  // B
+    LampStates lamps;  // B
     std::string name = "as in the file";
     float split = 0.5f;
 };
@@ -97,7 +97,7 @@ struct Session {
     std::optional<ViewTransition> transition;
     int place = 0;  // jumped to last
     std::vector<Bookmark> bookmarks;
-    std::string bookmarks_trouble;  // as book_trouble
+    std::string bookmarks_error;  // as presets_error
     std::optional<Path> recording;
     double recorded_seconds = 0;
     Lighting lighting;
@@ -115,7 +115,7 @@ struct Session {
 /// What the lamps are multiplied by now, crossfade included.
 std::vector<vec3> factors_now(const Lighting& lighting);
 
-/// What the next frame is to show.
+/// What the next frame is to viewer.
 FrameRequest frame_request_of(const Session& session, uint divisor);
 DisplaySettings display_settings_of(const Session& session, bool bgr);
 

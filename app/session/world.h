@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "app/session/luminaire.h"
-#include "app/walk/surroundings.h"
+#include "app/walk/collision_mesh.h"
 #include "maps/photon_map.h"
 #include "scene/bvh.h"
 #include "scene/load_scene.h"
@@ -13,12 +13,12 @@ namespace lw {
 
 struct World {
     /// load_scene(), whose warnings are printed. Throws Error as that.
-    World(const std::filesystem::path& path, const LampBook& book, const std::vector<std::string>& photometry);
+    World(const std::filesystem::path& path, const LampPresets& presets, const std::vector<std::string>& photometry);
 
     Scene scene;
     RayCaster caster;
     Bvh bvh;
-    Surroundings around;
+    CollisionMesh collision;
     std::map<size_t, Luminaire> luminaires;  // of lamps with a light distribution
 };
 

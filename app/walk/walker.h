@@ -2,7 +2,7 @@
 // up. Walking slides along walls, climbs steps, never passes a surface and never leaves the floor; flying passes
 // everything.
 #pragma once
-#include "app/walk/surroundings.h"
+#include "app/walk/collision_mesh.h"
 
 namespace lw {
 
@@ -35,13 +35,14 @@ struct WalkInput {
 };
 
 /// The walker after `seconds` (at most a quarter of one is simulated).
-Walker walk(const Walker& before, const WalkInput& input, float seconds, const Body& body, const Surroundings& around);
+Walker walk(const Walker& before, const WalkInput& input, float seconds, const Body& body,
+            const CollisionMesh& collision);
 
 /// A walker who sees what the camera sees; flying when no floor is within reach of the feet.
-Walker walker_at(const Camera& camera, const Body& body, const Surroundings& around);
+Walker walker_at(const Camera& camera, const Body& body, const CollisionMesh& collision);
 
 /// The same place, on the feet when there is a floor below, else flying on.
-Walker land(Walker walker, const Body& body, const Surroundings& around);
+Walker land(Walker walker, const Body& body, const CollisionMesh& collision);
 
 /// What the walker sees.
 Camera camera_of(const Walker& walker, float yfov, float near);

@@ -76,29 +76,29 @@ std::filesystem::path default_ambiances_path(const std::filesystem::path& scene)
     return json_beside(scene, "ambiances");
 }
 
-LampBook load_lamp_book(const std::filesystem::path& path) {
+LampPresets load_lamp_presets(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return {};
     const Json file = read_json(path);
     const std::string where = path.string();
     if (!file.is_object()) fail(where, "must be an object with ambiances and groups");
-    LampBook book;
+    LampPresets presets;
     each_entry(file, "ambiances", where, [&](const std::string& name, const Json& value) {
-        book.ambiances[name] = ambiance_from(value, where + ": ambiance \"" + name + "\"");
+        presets.ambiances[name] = ambiance_from(value, where + ": ambiance \"" + name + "\"");
     });
     each_entry(file, "groups", where, [&](const std::string& name, const Json& value) {
-        book.groups[name] = group_from(value, where + ": group \"" + name + "\"");
+        presets.groups[name] = group_from(value, where + ": group \"" + name + "\"");
     });
     each_entry(file, "photometry", where, [&](const std::string& name, const Json& value) {
         if (!value.is_string()) fail(where, "photometry: lamp \"" + name + "\": must be the name of a file");
-        book.photometry[name] = value.get<std::string>();
+        presets.photometry[name] = value.get<std::string>();
     });
-    return book;
+    return presets;
 }
 
-void save_lamp_book(const std::filesystem::path& path, const LampBook& book) {
+void save_lamp_presets(const std::filesystem::path& path, const LampPresets& presets) {
     Json file = {{"ambiances", Json::object()}, {"groups", Json::object()}};
-    for (const auto& [name, ambiance] : book.ambiances) {
+    for (const auto& [name, ambiance] : presets.ambiances) {
         Json& lamps = file["ambiances"][name] = Json::object();
         for (const auto& [lamp, s] : ambiance) {
             lamps[lamp] = s.factor;
@@ -108,8 +108,8 @@ void save_lamp_book(const std::filesystem::path& path, const LampBook& book) {
             if (s.kelvin != 0) lamps[lamp]["kelvin"] = s.kelvin;
         }
     }
-    for (const auto& [name, lamps] : book.groups) file["groups"][name] = lamps;
-    if (!book.photometry.empty()) file["photometry"] = book.photometry;
+    for (const auto& [name, lamps] : presets.groups) file["groups"][name] = lamps;
+    if (!presets.photometry.empty()) file["photometry"] = presets.photometry;
     write_json(path, file);
 }
 

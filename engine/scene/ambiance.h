@@ -25,7 +25,7 @@ struct LampSetting {
 
 using Ambiance = std::map<std::string, LampSetting>;  // by the lamp's name
 
-struct LampBook {
+struct LampPresets {
     std::map<std::string, Ambiance> ambiances;
     std::map<std::string, std::vector<std::string>> groups;  // names of lamps
     std::map<std::string, std::string> photometry;           // lamp -> file, relative to the folder of the scene
@@ -35,9 +35,9 @@ struct LampBook {
 std::filesystem::path default_ambiances_path(const std::filesystem::path& scene);
 
 /// Empty when there is no such file. Throws Error naming file, ambiance and lamp for anything malformed.
-LampBook load_lamp_book(const std::filesystem::path& path);
+LampPresets load_lamp_presets(const std::filesystem::path& path);
 
 /// Throws Error naming the file when it cannot be written.
-void save_lamp_book(const std::filesystem::path& path, const LampBook& book);
+void save_lamp_presets(const std::filesystem::path& path, const LampPresets& presets);
 
 }  // namespace lw

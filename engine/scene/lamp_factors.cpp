@@ -83,11 +83,11 @@ std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, co
     std::vector<vec3> factors = parse_factors(scene, powers);
     if (name.empty()) return factors;
     const std::filesystem::path path = default_ambiances_path(scene.path);
-    const LampBook book = load_lamp_book(path);
-    const auto found = book.ambiances.find(name);
-    if (found == book.ambiances.end()) {
+    const LampPresets presets = load_lamp_presets(path);
+    const auto found = presets.ambiances.find(name);
+    if (found == presets.ambiances.end()) {
         std::string names;
-        for (const auto& [other, lamps] : book.ambiances) names += (names.empty() ? "" : ", ") + other;
+        for (const auto& [other, lamps] : presets.ambiances) names += (names.empty() ? "" : ", ") + other;
         throw Error(path.string() + ": no ambiance \"" + name + "\"; there are: " + (names.empty() ? "none" : names));
     }
     const std::vector<vec3> chosen = lamp_factors(scene, found->second);

@@ -5,14 +5,15 @@
 
 namespace lw {
 
-/// "LAMP=FILE" texts: those of the book beside a scene, but for lamps that `given` names, then `given`.
-std::vector<std::string> photometry_texts(const LampBook& book, const std::filesystem::path& scene,
+/// "LAMP=FILE" texts: those of the presets beside a scene, but for lamps that `given` names, then `given`.
+std::vector<std::string> photometry_texts(const LampPresets& presets, const std::filesystem::path& scene,
                                           const std::vector<std::string>& given);
 
 /// load_gltf() with the files of photometry_texts() on its lamps. Throws Error as load_gltf() and with_photometry().
-Scene load_scene(const std::filesystem::path& path, const LampBook& book, const std::vector<std::string>& photometry);
+Scene load_scene(const std::filesystem::path& path, const LampPresets& presets,
+                 const std::vector<std::string>& photometry);
 
-/// The same with the book beside the scene. Throws Error, too, when that file is malformed.
+/// The same with the presets beside the scene. Throws Error, too, when that file is malformed.
 Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry);
 
 }  // namespace lw

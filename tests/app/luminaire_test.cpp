@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "app/session/lamp_board.h"
+#include "app/session/lamp_states.h"
 #include "app/session/session.h"
 #include "programs/command.h"
 #include "scene/load_scene.h"
@@ -55,7 +55,7 @@ TEST(Luminaire, StaysWithTheSceneForEveryProgram) {
     EXPECT_EQ(scene.lights[0].type, light_profile);
     EXPECT_EQ(run("bake", {folder / "cube.gltf", "--photons", "2000"}).exit_code, 0);
     std::string reason;
-    const World with_file(folder / "cube.gltf", session.lighting.book, {});
+    const World with_file(folder / "cube.gltf", session.lighting.presets, {});
     EXPECT_TRUE(try_load_map(folder / "cube.pmap", with_file.scene, reason)) << reason;
     EXPECT_FALSE(try_load_map(folder / "cube.pmap", world.scene, reason)) << "a map of other lamps";
     attach_file(session, 0, "");
@@ -63,9 +63,9 @@ TEST(Luminaire, StaysWithTheSceneForEveryProgram) {
 }
 
 TEST(Luminaire, AnotherFileOfTheOptionReplacesTheOneKept) {
-    LampBook book;
-    book.photometry = {{"a", "one.ies"}, {"b", "two.ies"}};
-    EXPECT_EQ(photometry_texts(book, "/rooms/hall.glb", {"b=other.ldt"}),
+    LampPresets presets;
+    presets.photometry = {{"a", "one.ies"}, {"b", "two.ies"}};
+    EXPECT_EQ(photometry_texts(presets, "/rooms/hall.glb", {"b=other.ldt"}),
               (std::vector<std::string>{"a=/rooms/one.ies", "b=other.ldt"}));
 }
 
@@ -73,12 +73,12 @@ TEST(Luminaire, TheSameSessionGoesOnInTheBuildingWithOtherLamps) {
     const World before(cube(), {}, {}), after(cube(), {}, {"lamp=" + file_of("batwing.ies")});
     Session session(before, "");
     session.walker.eye += vec3(0.3f, 0, 0.2f);
-    session.lighting.board[0].dimmer = 0.4f;
+    session.lighting.lamps[0].dimmer = 0.4f;
     session.viewing.view = view_illuminance;
     const Session next(after, session);
     EXPECT_EQ(&next.world, &after);
     EXPECT_EQ(next.walker.eye, session.walker.eye);
-    EXPECT_EQ(next.lighting.board[0].dimmer, 0.4f);
+    EXPECT_EQ(next.lighting.lamps[0].dimmer, 0.4f);
     EXPECT_EQ(next.viewing.view, view_illuminance);
     EXPECT_FALSE(next.reload);
 }

@@ -11,16 +11,16 @@ struct LampState {
     vec3 color{1};      // filter, linear Rec.709
 };
 
-using LampBoard = std::vector<LampState>;  // one per lamp of the scene
+using LampStates = std::vector<LampState>;  // one per lamp of the scene
 
 /// What each lamp's power is multiplied by, per channel.
-std::vector<vec3> factors_of(const LampBoard& board);
+std::vector<vec3> factors_of(const LampStates& lamps);
 
-/// What the board shows, under the names of the lamps; lamps at the power of the file are left out.
-Ambiance ambiance_of(const Scene& scene, const LampBoard& board);
+/// What the lamps shows, under the names of the lamps; lamps at the power of the file are left out.
+Ambiance ambiance_of(const Scene& scene, const LampStates& lamps);
 
-/// The board after choosing an ambiance; `missing` gets the lamps that the scene does not have.
-LampBoard with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing);
+/// The lamps after choosing an ambiance; `missing` gets the lamps that the scene does not have.
+LampStates with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing);
 
 /// Between two sets of factors, t from 0 to 1.
 std::vector<vec3> mixed(const std::vector<vec3>& from, const std::vector<vec3>& to, float t);
