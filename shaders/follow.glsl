@@ -1,7 +1,7 @@
 // View paths that go on from what the eye sees: along specular lobes too narrow for photons, through glass and blends,
 // by way of mirrors, to the surface where light is gathered. Conventions are those of trace/path_tracer: Heitz's
 // visible normals, one Fresnel factor for both sides, absorption in volumes, alpha by chance. One text for C++ and
-// GLSL; needs followed.h, shade.glsl, rays.glsl and the constants has_followed, looks_through, followed_roughness.
+// GLSL; needs followed.h, shade.glsl, rays.glsl and the constants has_followed, follows_through, followed_roughness.
 // Loops are bounded: some devices end long ones without a word.
 
 /// A ray on its way, and what the light it meets counts.
@@ -191,7 +191,7 @@ ViewRay ray_behind(Seen seen, PathNumbers numbers) LW_MEMBER {
 ViewRay first_ray(Seen seen, uint branch, PathNumbers numbers) LW_MEMBER {
     ViewRay ray = no_ray();
     if (branch == branch_through) {
-        if (looks_through) ray = ray_behind(seen, numbers);
+        if (follows_through) ray = ray_behind(seen, numbers);
         return ray;
     }
     ray = reflected_ray(seen, vec3(0.0f), lobe_numbers(numbers, 0u));
@@ -202,17 +202,17 @@ ViewRay first_ray(Seen seen, uint branch, PathNumbers numbers) LW_MEMBER {
 /// True when a path goes on from what the eye sees.
 bool goes_on(Seen seen, uint branch) LW_MEMBER {
     if (branch == branch_reflected) return reflects_narrowly(seen.surface);
-    return looks_through && (is_glass(seen.surface) || (has_alpha && opacity_at(seen.triangle, seen.surface) < 1.0f));
+    return follows_through && (is_glass(seen.surface) || (has_alpha && opacity_at(seen.triangle, seen.surface) < 1.0f));
 }
 
 /// The part of a surface that is there: what it shows itself counts so much.
 float shown_part(Seen seen) LW_MEMBER {
-    return has_alpha && looks_through ? opacity_at(seen.triangle, seen.surface) : 1.0f;
+    return has_alpha && follows_through ? opacity_at(seen.triangle, seen.surface) : 1.0f;
 }
 
 /// True where the illuminance of a pixel is that of the surface behind.
-bool is_looked_through(Seen seen) LW_MEMBER {
-    if (!looks_through) return false;
+bool is_followed_through(Seen seen) LW_MEMBER {
+    if (!follows_through) return false;
     return (seen.surface.transmission > 0.5f && seen.surface.metallic < 0.5f) || shown_part(seen) < 0.5f;
 }
 
@@ -353,7 +353,7 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
         for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
             add_rays(far, pair, points_at_end(seed, following), shown);
         light.radiance += at.weight * shown.radiance;
-        if (depth == 0u && branch == branch_through && is_looked_through(seen)) light.irradiance += shown.irradiance;
+        if (depth == 0u && branch == branch_through && is_followed_through(seen)) light.irradiance += shown.irradiance;
         if ((at.flags & followed_goes_on) == 0u) return;
         following.depth = depth + 1u;
         numbers = path_numbers(pixel, following, 0u);
@@ -372,7 +372,7 @@ Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed, uvec2 pixe
     for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
         add_rays(seen, pair, first_points(seed), light);
     light.radiance *= shown_part(seen);
-    if (is_looked_through(seen)) light.irradiance = vec3(0.0f);
+    if (is_followed_through(seen)) light.irradiance = vec3(0.0f);
     for (uint branch = 0u; has_followed && branch < branch_count; ++branch)
         if (goes_on(seen, branch)) add_followed(seen, branch, pixel, seed, light);
     return light;

@@ -29,9 +29,9 @@ struct Followed {
     vec3 weight;  // of what is gathered
     uint flags;
 };
-LW_CONST uint followed_leaves_lobe = 1u;   // the specular lobe is not gathered: the path might have gone on along it
-LW_CONST uint followed_goes_on = 2u;       // another path goes on along the lobe
-LW_CONST uint followed_is_looked_at = 4u;  // the pixel's illuminance is of this place
+LW_CONST uint followed_leaves_lobe = 1u;  // the specular lobe is not gathered: the path might have gone on along it
+LW_CONST uint followed_goes_on = 2u;      // another path goes on along the lobe
+LW_CONST uint followed_gives_illuminance = 4u;  // the pixel's illuminance is of this place
 
 LW_CONST uint max_paths = 1024u;  // of a pixel, in one frame
 

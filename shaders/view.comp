@@ -13,7 +13,7 @@ layout(set = 0, binding = binding_view_light) uniform textureBuffer light;
 layout(set = 0, binding = binding_view_other) uniform textureBuffer other;
 layout(set = 0, binding = binding_view_visibility) uniform utexture2D visibility;
 layout(set = 0, binding = binding_view_screen, scalar) writeonly buffer Codes { uint codes[]; };
-layout(set = 0, binding = binding_view_readback, scalar) writeonly buffer Glances { ReadbackPixel readback_pixels[]; };
+layout(set = 0, binding = binding_view_readback, scalar) writeonly buffer Readback { ReadbackPixel readback_pixels[]; };
 
 float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
 

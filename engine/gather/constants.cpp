@@ -56,19 +56,19 @@ FrameConstants constants_of(const Scene& scene, const PhotonMap& map, bool trace
     add_scene(scene, c);
     add_map(map, c);
     c.has_direct = traces_rays && !map.settings.direct_in_photons;
-    c.looks_through = traces_rays && (c.has_transmission || any_material(scene, material_alpha_blend));
+    c.follows_through = traces_rays && (c.has_transmission || any_material(scene, material_alpha_blend));
     return c;
 }
 
 #define LW_CONSTANT(type, name, value) {__LINE__, bits_of(constants.name)},
 
-std::vector<SpecConstant> listed(const FrameConstants& constants) {
+std::vector<SpecConstant> spec_constants_of(const FrameConstants& constants) {
     return {
 #include "shaders/frame_constants.h"
     };
 }
 
-std::vector<SpecConstant> listed(const ViewConstants& constants) {
+std::vector<SpecConstant> spec_constants_of(const ViewConstants& constants) {
     return {
 #include "shaders/view_constants.h"
     };

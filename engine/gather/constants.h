@@ -27,7 +27,7 @@ struct ViewConstants {
 FrameConstants constants_of(const Scene& scene, const PhotonMap& map, bool traces_rays);
 
 /// The members with their ids, as pipelines take them.
-std::vector<SpecConstant> listed(const FrameConstants& constants);
-std::vector<SpecConstant> listed(const ViewConstants& constants);
+std::vector<SpecConstant> spec_constants_of(const FrameConstants& constants);
+std::vector<SpecConstant> spec_constants_of(const ViewConstants& constants);
 
 }  // namespace lw

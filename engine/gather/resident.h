@@ -44,7 +44,7 @@ class Resident {
     /// The least roughness of a surface whose lobe could be followed by rays; 1: there is none.
     float min_lobe() const { return min_lobe_; }
     /// True when view paths may go on from what the eye sees.
-    bool may_follow() const { return min_lobe_ < 1 || constants_.looks_through; }
+    bool may_follow() const { return min_lobe_ < 1 || constants_.follows_through; }
     /// True when rays are traced by the device's ray queries.
     bool queries_rays() const { return queries_rays_; }
     uint triangle_count() const { return triangle_count_; }

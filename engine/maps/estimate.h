@@ -57,7 +57,7 @@ class PhotonEstimator : public SurfaceReader {
           shadow_rays(settings.shadow_rays),
           has_shadow_rays(settings.shadow_rays > 0 || !map.has_visible_lamps()),
           has_followed(!bvh.nodes.empty()),
-          looks_through(!bvh.nodes.empty()),
+          follows_through(!bvh.nodes.empty()),
           followed_roughness(settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f)
                                                       : std::sqrt(min_alpha)),
           has_direct(!bvh.nodes.empty() && !map.settings.direct_in_photons) {
@@ -160,7 +160,7 @@ class PhotonEstimator : public SurfaceReader {
     bool has_shadow_rays;
     static constexpr uint lobe_paths = 1;
     static constexpr bool has_mesh_lamps = true, has_profiles = true;
-    bool has_followed, looks_through;
+    bool has_followed, follows_through;
     float followed_roughness;
     bool has_direct;
     std::vector<uvec4> cell_light_;  // cached mode only

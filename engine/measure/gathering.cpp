@@ -32,12 +32,12 @@ void PhotonShares::clear() {
     touched.clear();
 }
 
-void Gatherer::add_emission(const Surface& s, vec3 to_view, float weight, Gathering& to) const {
+void Gatherer::add_emission(const Surface& s, vec3 to_view, float weight, GatherRay& to) const {
     to.lamps[size_t(s.light)] += to.throughput * emitters_.radiance(s, to_view) * weight;
 }
 
 /// Light that lamps send to a surface around and it sends on.
-void Gatherer::add_lamps(const Seen& at, LampChoice choice, Gathering& to) const {
+void Gatherer::add_lamps(const Seen& at, LampChoice choice, GatherRay& to) const {
     const Surface& s = at.surface;
     for (uint lamp = 0; lamp < light_count; ++lamp) {
         if (lights[lamp].type == light_mesh && choice == LampChoice::without_meshes) continue;
@@ -58,7 +58,7 @@ void Gatherer::add_lamps(const Seen& at, LampChoice choice, Gathering& to) const
 
 /// Photons of a grid under an Epanechnikov kernel of which the part `covered` lies on surface.
 void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
-                           Gathering& to) const {
+                           GatherRay& to) const {
     const float r2 = radius * radius, peak = 2 / (lw_pi * r2) * inverse_flux_scale / covered;
     Surface s = at.surface;
     s.roughness = std::max(s.roughness, min_reflected_roughness);
@@ -80,7 +80,7 @@ void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered,
 
 /// Reflected light of the photons within half the radius of the map: a radius that does not follow the photons leaves
 /// their sum unbiased, and noise at one surface point is averaged over the rays.
-void Gatherer::add_reflected(const Seen& at, Gathering& to) const {
+void Gatherer::add_reflected(const Seen& at, GatherRay& to) const {
     if (at.at.map == no_map) return;
     const float radius = 0.5f * at.at.grid.radius;
     add_photons(at.at.grid, radius, has_coverage ? coverage_at(at.at, radius) : 1.0f, at, true, to);
@@ -88,7 +88,7 @@ void Gatherer::add_reflected(const Seen& at, Gathering& to) const {
 
 /// Light of lamps by mirrors and lenses alone, far sharper: from its own grids with the bandwidth of a picture. Meshes
 /// are left out where the path goes on and finds them itself.
-void Gatherer::add_caustics(const Seen& at, bool with_meshes, Gathering& to) const {
+void Gatherer::add_caustics(const Seen& at, bool with_meshes, GatherRay& to) const {
     const uint own = has_caustics ? map_at(caustic_map_of(at.triangle, at.front), at.surface.position) : no_map;
     if (own == no_map) return;
     const SurfaceGrid& grid = grid_at(own);
@@ -121,7 +121,7 @@ auto Gatherer::seen_from(vec3 to_view, const Hit& hit, const Surface& s) const -
 
 /// Through glass, over mirrors, and off surfaces that are closer or smaller than the photons resolve (else corners and
 /// furniture would be brighter or darker than they are).
-void Gatherer::gather(vec3 origin, vec3 direction, Gathering& to) const {
+void Gatherer::gather(vec3 origin, vec3 direction, GatherRay& to) const {
     // Direct light of the sensor is already counted, but not what comes over a mirror or a lens; after a surface that
     // was walked on from, lamps are found by both ways.
     bool emission = false;

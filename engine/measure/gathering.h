@@ -20,7 +20,7 @@ struct PhotonShares {
 };
 
 /// A ray to the surroundings and what it brought so far.
-struct Gathering {
+struct GatherRay {
     vec3 throughput;           // lux per radiance and RGB
     std::vector<vec3>& lamps;  // lx per unit intensity and RGB
     PhotonShares& shares;
@@ -41,7 +41,7 @@ class Gatherer : public PhotonEstimator {
           emitters_(scene) {}
 
     /// Follows a ray and adds what it brings.
-    void gather(vec3 origin, vec3 direction, Gathering& to) const;
+    void gather(vec3 origin, vec3 direction, GatherRay& to) const;
 
     /// Light of one lamp per unit intensity and RGB as lux of its power in the file.
     ChannelLux file_lux(uint lamp, vec3 per_intensity) const {
@@ -51,12 +51,12 @@ class Gatherer : public PhotonEstimator {
   protected:
     Seen seen_from(vec3 to_view, const Hit& hit, const Surface& s) const;
     bool is_resolved(const Seen& seen) const;
-    void add_emission(const Surface& s, vec3 to_view, float weight, Gathering& to) const;
-    void add_lamps(const Seen& at, LampChoice choice, Gathering& to) const;
-    void add_reflected(const Seen& at, Gathering& to) const;
-    void add_caustics(const Seen& at, bool with_meshes, Gathering& to) const;
+    void add_emission(const Surface& s, vec3 to_view, float weight, GatherRay& to) const;
+    void add_lamps(const Seen& at, LampChoice choice, GatherRay& to) const;
+    void add_reflected(const Seen& at, GatherRay& to) const;
+    void add_caustics(const Seen& at, bool with_meshes, GatherRay& to) const;
     void add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
-                     Gathering& to) const;
+                     GatherRay& to) const;
 
     static inline const std::vector<vec3> no_weights_;
     const Scene& scene_;

@@ -26,8 +26,8 @@ vec3 parse_axis(const std::string& text, const std::string& where);
 
 Response parse_response(const std::string& text, const std::string& where);
 
-/// The words "KEY=VALUE"; throws Error for a key that is not in `known`, or given twice.
-std::map<std::string, std::string> parse_pairs(const std::vector<std::string>& words,
+/// The tokens "KEY=VALUE"; throws Error for a key that is not in `known`, or given twice.
+std::map<std::string, std::string> parse_pairs(const std::vector<std::string>& tokens,
                                                const std::vector<std::string>& known, const std::string& where);
 
 }  // namespace lw
