@@ -1,4 +1,4 @@
-// Dear ImGui over the window's image: its context, look and Vulkan backend. What is drawn is up to the panels.
+// Dear ImGui over the window's image: its context, style and Vulkan backend. What is drawn is up to the panels.
 #pragma once
 #include "app/window/presenter.h"
 

@@ -8,7 +8,8 @@ namespace lw {
 
 /// Lamps: search, dimmers, switches, solo, filters, groups, ambiances.
 void draw_lamp_panel(Session& session);
-/// View, ranges, exposure, comparison, quality, places, probe and statistics. Wishes of its buttons go to the session.
+/// View, ranges, exposure, comparison, quality, places, probe and statistics. Its buttons write requests into the
+/// session.
 void draw_view_panel(Session& session);
 /// The scale of the false colours; nothing in the shaded view.
 void draw_legend(const Session& session);

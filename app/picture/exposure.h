@@ -1,4 +1,4 @@
-// What follows the picture by itself: exposure, the range of the false colours, the resolution while moving.
+// What adapts to the picture by itself: exposure, the range of the false colours, the resolution while moving.
 #pragma once
 #include "app/session/session.h"
 

@@ -63,7 +63,7 @@ void Viewer::frame(const BakingState& baking) {
     const float seconds = idle ? std::min(seconds_, 0.05f) : seconds_;  // a step after a rest is no leap
     last_ = now;
     const std::optional<OpenFrame> open = presenter_.begin();
-    if (open) begin_panels();  // before input is taken: they tell what is theirs of it
+    if (open) begin_panels();  // before input is taken: ImGui then knows which of it the panels capture
     take_input(events, seconds);
     if (!open) return;
     present(*open, baking, now);
@@ -126,7 +126,7 @@ void Viewer::present(const OpenFrame& open, const BakingState& baking, double no
     if (request != PictureRequest::none) keep_screenshot();
 }
 
-/// What the frame before the last tells: times, exposure, range.
+/// Takes times, exposure and range of false colours from the readback of the frame before the last.
 void Viewer::follow_picture(uint slot) {
     renderer_->resize(presenter_.swapchain().size());
     session_.statistics.times = renderer_->times(slot);
@@ -146,7 +146,7 @@ void Viewer::record_frame(const OpenFrame& open) {
                       open.slot);
 }
 
-/// Once for each picture that stands still.
+/// Estimates the error of the picture once it is finished, and forgets it when the picture changes.
 void Viewer::estimate_error(const FrameRequest& request, uint slot) {
     std::optional<vec2>& error = session_.statistics.error;
     if (!renderer_->is_finished(request))

@@ -1,5 +1,5 @@
-// Pictures to what is looked at (shaders/view.comp): exposed, in false colours, A beside B; and the readback, a few of
-// their values, back on the CPU a frame late.
+// Turns pictures into the sRGB codes that a window shows (shaders/view.comp): exposed, in false colours, or A beside B.
+// Copies a grid of their values to the CPU (the readback), which can be read once the frame's commands have finished.
 #pragma once
 #include <array>
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace lw {
 
-/// What makes the view pass a different program.
+/// What the view pass is specialized for: one pipeline for each.
 struct ViewKind {
     uint view = view_shaded;
     uint curve = curve_neutral;
