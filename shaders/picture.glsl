@@ -2,6 +2,7 @@
 // light by shadow rays, and the surface's own glow. Writes radiance (cd/m2) and illuminance (lux). A first dispatch
 // looks at the photons and lists the pixels that need rays for a second one: a processor that runs both sides of a
 // branch pays for rays only where there are any.
+#include "color.h"
 #include "resident.glsl"
 
 layout(local_size_x = gather_group_side, local_size_y = gather_group_side) in;
@@ -173,8 +174,6 @@ vec4 inspect_pixel(Seen seen, uint seed) {
     Inspected i = inspect(seen, pixel_metres, seed);
     return vec4(i.bandwidth, i.photons, i.relative_error, i.dot_lamp);
 }
-
-float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 Seen seen_by(uint pixel) {
     uvec4 visible = texelFetch(visibility, ivec2(pixel % frame.width, pixel / frame.width), 0);

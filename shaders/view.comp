@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "color.h"
 #include "view.h"
 #include "view_constants.h"
 
@@ -14,8 +15,6 @@ layout(set = 0, binding = binding_view_other) uniform textureBuffer other;
 layout(set = 0, binding = binding_view_visibility) uniform utexture2D visibility;
 layout(set = 0, binding = binding_view_screen, scalar) writeonly buffer Codes { uint codes[]; };
 layout(set = 0, binding = binding_view_readback, scalar) writeonly buffer Readback { ReadbackPixel readback_pixels[]; };
-
-float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 uint pixel_at(ivec2 at) {
     ivec2 p = clamp(at, ivec2(0), ivec2(push.picture) - 1);

@@ -1,5 +1,6 @@
 #include "app/session/lamp_states.h"
 #include "scene/lamp_factors.h"
+#include "shaders/color.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +8,6 @@
 
 namespace lw {
 namespace {
-
-float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 /// Luminous flux per unit of intensity, lm; 0 for directional light, whose flux depends on the scene.
 float unit_flux(const Light& light) {

@@ -42,6 +42,11 @@ FrameConstants constants_for(const Resident& resident, const GatherSettings& set
     return constants;
 }
 
+std::array<uint, 4> pipeline_key(const GatherSettings& settings) {
+    return {settings.mode, settings.shadow_rays > 0, settings.mode == gather_mode_exact ? settings.neighbours : 0,
+            floatBitsToUint(settings.followed_roughness)};
+}
+
 Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps) {
     frame.neighbours = std::max(1u, settings.neighbours);
     frame.max_radius = resident.max_radius();

@@ -1,5 +1,7 @@
 // Light at what each pixel sees, from the photon map: radiance and illuminance.
 #pragma once
+#include <array>
+
 #include "gather/picture.h"
 #include "gather/resident.h"
 #include "maps/estimate.h"
@@ -8,6 +10,9 @@ namespace lw {
 
 /// What the pipelines of a gather are compiled with: what the scene and the settings need.
 FrameConstants constants_for(const Resident& resident, const GatherSettings& settings);
+
+/// Settings with the same key share the pipelines of a GatherPass.
+std::array<uint, 4> pipeline_key(const GatherSettings& settings);
 
 /// The push constants of a view with what its passes need of the scene, its lamps at a setting, and the settings.
 Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps = 0);

@@ -24,10 +24,7 @@ void LiveView::record_visibility(vk::CommandBuffer commands, const Frame& frame)
 }
 
 GatherPass& LiveView::pass_for(const GatherSettings& settings) {
-    const std::array<uint, 4> key{settings.mode, settings.shadow_rays > 0,
-                                  settings.mode == gather_mode_exact ? settings.neighbours : 0,
-                                  floatBitsToUint(settings.followed_roughness)};
-    std::unique_ptr<GatherPass>& pass = passes_[key];
+    std::unique_ptr<GatherPass>& pass = passes_[pipeline_key(settings)];
     if (!pass) pass = std::make_unique<GatherPass>(*device_, *resident_, a_, settings);
     return *pass;
 }

@@ -69,11 +69,8 @@ Renderer::Renderer(const Device& device, const Resident& resident, uint width, u
       tonemap_(device, resident, picture_) {}
 
 void Renderer::choose_gather(GatherSettings settings) {
-    const bool same = gather_ && settings.mode == gather_settings_.mode &&
-                      (settings.shadow_rays > 0) == (gather_settings_.shadow_rays > 0) &&
-                      settings.followed_roughness == gather_settings_.followed_roughness &&
-                      (settings.mode != 0 || settings.neighbours == gather_settings_.neighbours);
-    if (!same) gather_ = std::make_unique<GatherPass>(*device_, *resident_, picture_, settings);
+    if (!gather_ || pipeline_key(settings) != pipeline_key(gather_settings_))
+        gather_ = std::make_unique<GatherPass>(*device_, *resident_, picture_, settings);
     gather_settings_ = settings;
 }
 

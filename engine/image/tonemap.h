@@ -4,12 +4,10 @@
 #pragma once
 #include "image/image.h"
 #include "image/rgb8_image.h"
+#include "shaders/color.h"
 #include "tonemap.glsl"
 
 namespace lw {
-
-/// Rec.709 luminance of linear RGB.
-inline float luminance(const vec3& rgb) { return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z; }
 
 /// The channels R, G, B of each pixel; throws Error naming the first one that is missing.
 std::vector<vec3> rgb_pixels(const Image& image);

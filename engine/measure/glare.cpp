@@ -7,14 +7,11 @@
 
 #include "base/parallel.h"
 #include "measure/guth.h"
+#include "shaders/color.h"
 #include "trace/sampling.h"
 
 namespace lw {
-namespace {
-
-double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
-
-}  // namespace
+namespace {}  // namespace
 
 double glare_of(const GlareSource& source, vec3 forward, vec3 up) {
     const double p = position_index(source.direction, forward, up);
@@ -45,7 +42,7 @@ std::vector<GlareSource> find_visible_lamps(const Scene& scene, const RayCaster&
             const auto in = emitters.arrive(lamp, camera.position, sobol_owen(i, 0, lamp), sobol_owen(i, 1, lamp));
             if (!in || dot(in->to_light, forward) <= 0) continue;
             const vec3 passed = caster.transmittance(camera.position, in->position);
-            const double seen = luminance(in->radiance * passed * powers[lamp]);
+            const double seen = precise_luminance(in->radiance * passed * powers[lamp]);
             if (!(seen > 0)) continue;
             const double part = 1 / (double(in->pdf) * samples);
             source.luminance += seen * part;
@@ -76,10 +73,10 @@ double background_luminance(const Scene& scene, const RayCaster& caster, const C
                 const auto in = emitters.arrive(lamp, camera.position, u, v);
                 if (!in || dot(in->to_light, forward) <= 0) continue;
                 const vec3 passed = caster.transmittance(camera.position, in->position);
-                straight += luminance(in->radiance * passed * powers[lamp]) * double(dot(in->to_light, forward)) /
-                            (in->pdf > 0 ? double(in->pdf) : 1.0);
+                straight += precise_luminance(in->radiance * passed * powers[lamp]) *
+                            double(dot(in->to_light, forward)) / (in->pdf > 0 ? double(in->pdf) : 1.0);
             }
-            indirect[i] = luminance(tracer.irradiance(camera.position, forward, rng)) - straight;
+            indirect[i] = precise_luminance(tracer.irradiance(camera.position, forward, rng)) - straight;
         },
         64);
     double sum = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/color.h"
 #include "trace/bsdf.h"
 
 namespace lw {
@@ -10,8 +11,6 @@ namespace {
 
 constexpr int max_sheets = 8;
 constexpr int max_reflections = 4;
-
-double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 float power_heuristic(float a, float b) { return a * a / (a * a + b * b); }
 
@@ -41,10 +40,10 @@ void MirrorTracer::add_lamps(const Surface& s, vec3 n, vec3 to_view, vec3 part, 
         if (!(largest(f) > 0)) continue;
         vec3 seen = part * f * in->radiance * powers_[lamp] * dot(in->to_light, n);
         if (in->pdf > 0) seen *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, s, to_view, in->to_light)) / in->pdf;
-        if (luminance(seen) > 0)
-            light[{lamp, object}] +=
-                luminance(seen * caster_.transmittance(caster_.offset(s.position, turned(s.geometric_normal, to_view)),
-                                                       in->position));
+        if (precise_luminance(seen) > 0)
+            light[{lamp, object}] += precise_luminance(
+                seen *
+                caster_.transmittance(caster_.offset(s.position, turned(s.geometric_normal, to_view)), in->position));
     }
 }
 
@@ -74,7 +73,8 @@ void MirrorTracer::reflect(const Surface& first, uint object, vec3 to_view, vec3
                 const float pdf = next->specular ? 0 : next->pdf;
                 const float chosen =
                     pdf > 0 ? power_heuristic(pdf, emitters_.arrive_pdf(s, distance, next->direction)) : 1;
-                if (luminance(seen) > 0) light[{uint(s.light), object}] += luminance(seen) * double(chosen);
+                if (precise_luminance(seen) > 0)
+                    light[{uint(s.light), object}] += precise_luminance(seen) * double(chosen);
             }
             if (!surfaces_.passes_straight(s) || sheets == max_sheets) break;
             part *= surfaces_.passed_by(hit->triangle, hit->barycentrics, next->direction);

@@ -9,14 +9,13 @@
 #include "measure/guth.h"
 #include "measure/mirrored_light.h"
 #include "scene/camera.h"
+#include "shaders/color.h"
 
 namespace lw {
 namespace {
 
 constexpr uint max_surroundings = 96;   // pixels path traced around a patch
 constexpr uint surrounding_paths = 32;  // per pixel
-
-double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 /// One view as pixels.
 struct View {
@@ -126,7 +125,7 @@ double mean_luminance(const PathTracer& tracer, const View& view, const std::vec
     for (size_t i = 0; i < pixels.size(); i += step)
         for (uint n = 0; n < surrounding_paths; ++n, ++count) {
             Rng rng(seed ^ 0x5eed, pixels[i], n);
-            sum += luminance(tracer.radiance(view.camera.position, view.direction(pixels[i], 0.5f, 0.5f), rng));
+            sum += precise_luminance(tracer.radiance(view.camera.position, view.direction(pixels[i], 0.5f, 0.5f), rng));
         }
     return count ? sum / double(count) : 0;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/color.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -22,8 +23,6 @@ uint path_after(uint path, const Scatter& next) {
 }
 
 }  // namespace
-
-double balance_of(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 /// A photon on its way.
 struct PhotonTracer::PathState {
@@ -87,7 +86,7 @@ PhotonTracer::PathState PhotonTracer::start(Chunk& chunk, uint64_t index, float 
     PathState state{caster_.offset(photon.origin, photon.normal), photon.direction, photon.flux * share};
     state.light = chunk.light;
     state.rng = Rng(settings_.seed, chunk.light + 1, index);
-    chunk.emitted_flux += balance_of(state.flux);
+    chunk.emitted_flux += precise_luminance(state.flux);
     return state;
 }
 
@@ -101,7 +100,7 @@ bool PhotonTracer::look(Chunk& chunk, PathState& state) const {
         keep(chunk, there, bounce_at(blend, state.direction));
     }
     if (!hit) {
-        chunk.escaped += balance_of(state.flux);
+        chunk.escaped += precise_luminance(state.flux);
         return false;
     }
     state.next = *hit;
@@ -116,7 +115,7 @@ bool PhotonTracer::bounce(Chunk& chunk, PathState& state) const {
     keep(chunk, state, at);
     if (!leave(chunk, state, at)) return false;
     if (++state.depth < max_path) return true;
-    chunk.absorbed += balance_of(state.flux);
+    chunk.absorbed += precise_luminance(state.flux);
     return false;
 }
 
@@ -126,7 +125,7 @@ void PhotonTracer::pass_medium(Chunk& chunk, PathState& state, const Bounce& at)
         at.matte ? state.medium : absorption_before(surfaces_, at.surface, state.direction, state.medium);
     if (absorption == vec3(0)) return;
     const vec3 arriving = state.flux * surfaces_.passed_by_medium(absorption, state.next.distance);
-    chunk.absorbed += balance_of(state.flux) - balance_of(arriving);
+    chunk.absorbed += precise_luminance(state.flux) - precise_luminance(arriving);
     state.flux = arriving;
 }
 
@@ -189,7 +188,7 @@ bool PhotonTracer::survives(Chunk& chunk, PathState& state, vec3 weight, float m
     const float survival = before > 0 ? std::min(max_survival, after / before) : 0.0f;
     const bool goes_on = state.rng.next() < survival;
     const vec3 kept = goes_on ? reflected * (1 / survival) : vec3(0);
-    chunk.absorbed += balance_of(state.flux) - balance_of(kept);
+    chunk.absorbed += precise_luminance(state.flux) - precise_luminance(kept);
     state.flux = kept;
     return goes_on;
 }

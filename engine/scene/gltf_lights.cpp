@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scene/gltf_profiles.h"
+#include "shaders/color.h"
 
 namespace lw {
 namespace {
@@ -118,11 +119,9 @@ void add_mesh_lights(const GltfFile& file, const std::vector<PlacedNode>& nodes,
     }
 }
 
-double luminance(vec3 rgb) { return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z); }
-
 /// Luminous flux in lm; of a directional light what falls on the scene.
 double flux_of(const Light& light, const Scene& scene) {
-    const double strength = luminance(light.intensity), pi = double(lw_pi);
+    const double strength = precise_luminance(light.intensity), pi = double(lw_pi);
     if (light.type == light_point || light.type == light_profile) return 4 * pi * strength;
     if (light.type == light_spot) return 2 * pi * (1 - double(light.cos_outer + light.cos_inner) / 2) * strength;
     if (light.type == light_mesh) return pi * double(light.area) * strength;
@@ -136,9 +135,9 @@ void warn_if_not_photometric(GltfFile& file, const Scene& scene) {
         const Light& light = scene.lights[i];
         flux += flux_of(light, scene);
         const double limit = light.type == light_mesh ? 1e6 : light.type == light_directional ? 2e5 : 1e7;
-        if (luminance(light.intensity) <= limit) continue;
+        if (precise_luminance(light.intensity) <= limit) continue;
         char text[64];
-        std::snprintf(text, sizeof text, "%.3g %s", luminance(light.intensity),
+        std::snprintf(text, sizeof text, "%.3g %s", precise_luminance(light.intensity),
                       light.type == light_mesh          ? "cd/m2"
                       : light.type == light_directional ? "lx"
                                                         : "cd");

@@ -8,6 +8,7 @@
 #include "scene/ambiance.h"
 #include "scene/content_hash.h"
 #include "scene/lamp_factors.h"
+#include "shaders/color.h"
 
 namespace lw {
 namespace {
@@ -29,8 +30,8 @@ std::vector<double> sampled(const Photometry& photometry, uint columns) {
 
 /// The lamp's colour at luminance 1.
 vec3 chromaticity(vec3 intensity, const Photometry& photometry) {
-    const float luminance = dot(intensity, vec3(0.2126f, 0.7152f, 0.0722f));
-    const vec3 own = luminance > 0 ? intensity / luminance : vec3(1);
+    const float strength = luminance(intensity);
+    const vec3 own = strength > 0 ? intensity / strength : vec3(1);
     const bool white = length(own - vec3(1)) < 1e-3f;
     return white && photometry.color_temperature > 0 ? color_of_temperature(photometry.color_temperature) : own;
 }
@@ -49,11 +50,11 @@ vec3 color_of_temperature(double kelvin) {
                          glm::dot(xyz, {-0.9692660, 1.8760108, 0.0415560}),
                          glm::dot(xyz, {0.0556434, -0.2040259, 1.0572252}));
     const vec3 visible = max(vec3(rgb), vec3(0));
-    return visible / dot(visible, vec3(0.2126f, 0.7152f, 0.0722f));
+    return visible / luminance(visible);
 }
 
 vec3 filter_to_temperature(vec3 intensity, double kelvin) {
-    const vec3 wanted = color_of_temperature(kelvin) * dot(intensity, vec3(0.2126f, 0.7152f, 0.0722f));
+    const vec3 wanted = color_of_temperature(kelvin) * luminance(intensity);
     vec3 filter(0);
     for (int c = 0; c < 3; ++c) {
         if (wanted[c] > 0 && !(intensity[c] > 0)) throw Error("the lamp's own light lacks a colour to be filtered");

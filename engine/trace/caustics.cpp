@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "shaders/color.h"
 #include "trace/bsdf.h"
 #include "trace/sampling.h"
 
@@ -20,8 +21,6 @@ bool is_polished(const auto& s) {
     return s.roughness < roughest_caster && (s.metallic > 0.999f || s.transmission > 0.999f) &&
            (s.flags & material_unlit) == 0;
 }
-
-double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 /// The specular part of a path from a lamp.
 class CausticPath {
@@ -76,7 +75,7 @@ std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, s
                                   uint64_t wanted) {
     std::vector<double> flux(scene.lights.size(), 0);
     double sum = 0;
-    for (uint i = 0; i < flux.size(); ++i) sum += flux[i] = luminance(powers[i]) * double(path.unit_flux(i));
+    for (uint i = 0; i < flux.size(); ++i) sum += flux[i] = precise_luminance(powers[i]) * double(path.unit_flux(i));
     std::vector<uint64_t> paths(flux.size(), 0);
     for (size_t i = 0; i < flux.size(); ++i)
         if (flux[i] > 0) paths[i] = 1 + uint64_t(double(wanted) * flux[i] / sum);
@@ -94,7 +93,7 @@ bool has_caustics(const Scene& scene, std::span<const vec3> powers) {
         return is_polished(m) || (smooth && (m.metallic > 0 || m.specular > 0 || m.transmission > 0));
     };
     if (std::none_of(scene.materials.begin(), scene.materials.end(), is_specular)) return false;
-    return std::any_of(powers.begin(), powers.end(), [](vec3 weight) { return luminance(weight) > 0; });
+    return std::any_of(powers.begin(), powers.end(), [](vec3 weight) { return precise_luminance(weight) > 0; });
 }
 
 Caustics::Caustics(const Scene& scene, const RayCaster& caster, std::span<const vec3> powers,

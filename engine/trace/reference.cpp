@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "scene/camera.h"
+#include "shaders/color.h"
 
 namespace lw {
 namespace {
@@ -33,8 +34,6 @@ struct FirstHit {
     Surface surface;
     vec3 normal;  // geometric, to the viewer
 };
-
-double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 double relative_error(const std::vector<PixelSum>& pixels, uint64_t n) {
     double mean = 0, error2 = 0;
@@ -141,7 +140,8 @@ Reference render_reference(const Scene& scene, const RayCaster& caster, const Ca
                     const vec3 radiance = tracer.radiance(first[i].ray.origin, first[i].ray.direction, rng, light);
                     double lux = 0;
                     if (settings.illuminance && first[i].hit)
-                        lux = luminance(tracer.irradiance(first[i].surface.position, first[i].normal, rng, light));
+                        lux = precise_luminance(
+                            tracer.irradiance(first[i].surface.position, first[i].normal, rng, light));
                     pixels[i].add({double(radiance.x), double(radiance.y), double(radiance.z), lux}, n + 1);
                 }
             progress.step(pass * uint64_t(settings.width));
