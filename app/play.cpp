@@ -147,12 +147,12 @@ void play(const PlaySettings& settings) {
         return times;
     };
     make(0);  // pipelines are made and the exposure is found before the clock runs
-    DynamicResolution automatic;
-    if (settings.divisor == 0) divisor = automatic.next(0, make(0).first, true);
+    DynamicResolution resolution;
+    if (settings.divisor == 0) divisor = resolution.next(0, make(0).first, true);
     for (size_t i = 0; i < count; ++i) {
         adapt_to(viewing, renderer.readback(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));
         frames.push_back(make(i));
-        if (settings.divisor == 0) divisor = automatic.next(0, frames.back().first, false);
+        if (settings.divisor == 0) divisor = resolution.next(0, frames.back().first, false);
         if (settings.frames.empty()) continue;
         check_is_light(renderer.read_values());
         write_png(frame_name(settings.frames, i), read_screen(device, renderer, settings.size));

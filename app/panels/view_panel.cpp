@@ -35,7 +35,7 @@ constexpr Entry divisors[] = {{0, "automatic"}, {1, "all"}, {2, "half"}, {3, "th
 static_assert(std::size(views) == view_count && std::size(curves) == curve_count);
 
 /// A combo box that sets `value` to that of the chosen entry.
-void choose(const char* label, std::span<const Entry> entries, uint& value) {
+void combo_box(const char* label, std::span<const Entry> entries, uint& value) {
     const auto is_value = [&](const Entry& e) { return e.value == value; };
     const auto now = std::find_if(entries.begin(), entries.end(), is_value);
     if (!ImGui::BeginCombo(label, now == entries.end() ? "" : now->text)) return;
@@ -49,7 +49,7 @@ void choose(const char* label, std::span<const Entry> entries, uint& value) {
 void draw_view_choice(Session& s) {
     Viewing& v = s.viewing;
     ImGui::SetNextItemWidth(-1);
-    choose("##view", views, v.view);
+    combo_box("##view", views, v.view);
     ImGui::Checkbox("reflections of lamps", &v.reflections);
     if (v.view == view_shaded || v.view == view_photons) return;
     ImGui::Checkbox("auto range", &v.auto_range);
@@ -73,7 +73,7 @@ void draw_exposure(Viewing& v) {
     ImGui::SliderFloat("EV", &v.exposure_ev, -4, 18, "%.2f");
     if (ImGui::IsItemEdited()) v.auto_exposure = false;
     ImGui::SetNextItemWidth(150);
-    choose("curve", curves, v.curve);
+    combo_box("curve", curves, v.curve);
 }
 
 void draw_comparison(Session& s) {
@@ -111,7 +111,7 @@ void draw_quality(Viewing& v, const FrameStatistics& statistics) {
                                {gather_mode_smooth, "smooth: photons, one pass"},
                                {gather_mode_cached, "cached: irradiance of the bake"}};
     ImGui::SetNextItemWidth(-1);
-    choose("##mode", modes, v.gather.mode);
+    combo_box("##mode", modes, v.gather.mode);
     int neighbours = int(v.gather.neighbours), rays = int(v.gather.shadow_rays), samples = int(v.max_samples);
     ImGui::SetNextItemWidth(110);
     if (ImGui::SliderInt("photons per estimate", &neighbours, 10, 1000, "%d", ImGuiSliderFlags_Logarithmic))
@@ -121,7 +121,7 @@ void draw_quality(Viewing& v, const FrameStatistics& statistics) {
     ImGui::SetNextItemWidth(110);
     if (ImGui::SliderInt("views while still", &samples, 1, 256)) v.max_samples = uint(std::clamp(samples, 1, 4096));
     ImGui::SetNextItemWidth(110);
-    choose("pixels in motion", divisors, v.divisor);
+    combo_box("pixels in motion", divisors, v.divisor);
     if (statistics.error)
         ImGui::Text("estimated error %.1f %%, 95th percentile %.1f %%", double(statistics.error->x),
                     double(statistics.error->y));

@@ -78,7 +78,7 @@ uint DynamicResolution::next(uint wanted, const RendererTimes& last, bool still)
     // A frame that is a little late is no reason for larger pixels, least of all while moving.
     const double max_ms = (still ? 1.1 : 1.25) * wanted_frame_ms;
     uint needed = 1;
-    while (needed < most && fixed_ms_ + light_ms_ / (needed * needed) > max_ms) ++needed;
+    while (needed < max_divisor && fixed_ms_ + light_ms_ / (needed * needed) > max_ms) ++needed;
     now_ = still ? needed : std::max(now_, needed);
     return now_;
 }

@@ -21,13 +21,13 @@ std::optional<vec2> spread_of(const std::vector<ReadbackPixel>& readback);
 /// one takes a quarter longer, finer only after standing still, so that nothing flickers between sizes.
 class DynamicResolution {
   public:
-    static constexpr uint most = 4;
+    static constexpr uint max_divisor = 4;
 
     /// `wanted`: what the user chose, 0 for automatic. `still`: samples are adding up.
     uint next(uint wanted, const RendererTimes& last, bool still);
 
   private:
-    uint now_ = most;
+    uint now_ = max_divisor;
     double fixed_ms_ = 0,
            light_ms_ = 1e9;  // of a frame: what does not follow the pixels, and the gather of all of them
 };

@@ -136,7 +136,8 @@ void Viewer::follow_picture(uint slot) {
 }
 
 void Viewer::record_frame(const OpenFrame& open) {
-    const uint divisor = divisor_.next(session_.viewing.divisor, session_.statistics.times, renderer_->samples() > 1);
+    const uint divisor =
+        resolution_.next(session_.viewing.divisor, session_.statistics.times, renderer_->samples() > 1);
     FrameRequest request = frame_request_of(session_, divisor);
     if (!renderer_->shows(request, session_.viewing.view)) changed_ = last_;
     request.sharpens = last_ - changed_ > sharpens_after_seconds;

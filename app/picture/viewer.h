@@ -47,7 +47,7 @@ class Viewer {
     double changed_ = 0;       // when the picture last began anew
     double last_, shown_;
     float seconds_ = 0;
-    DynamicResolution divisor_;
+    DynamicResolution resolution_;
     ReflectionSearch reflections_;
     std::vector<vec3> measured_;  // factors of the lamps, place and view of the last measurement
     vec3 measured_eye_{0};

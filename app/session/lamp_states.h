@@ -1,4 +1,5 @@
-// The state of every lamp as the user set it: dimmers, switches, solo, filters. Values in, factors out.
+// The state of every lamp as the user set it: dimmers, switches, solo, filters; and the factors that follow from it, by
+// which the intensity of each lamp is multiplied per channel.
 #pragma once
 #include "scene/ambiance.h"
 
@@ -13,13 +14,13 @@ struct LampState {
 
 using LampStates = std::vector<LampState>;  // one per lamp of the scene
 
-/// What each lamp's power is multiplied by, per channel.
+/// dimmer x color of each lamp that is lit, 0 of the others.
 std::vector<vec3> factors_of(const LampStates& lamps);
 
-/// What the lamps shows, under the names of the lamps; lamps at the power of the file are left out.
+/// The ambiance that these states are, under the names of the lamps; lamps as in the scene file are left out.
 Ambiance ambiance_of(const Scene& scene, const LampStates& lamps);
 
-/// The lamps after choosing an ambiance; `missing` gets the lamps that the scene does not have.
+/// The states after choosing an ambiance; `missing` gets the names of lamps that the scene does not have.
 LampStates with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing);
 
 /// Between two sets of factors, t from 0 to 1.

@@ -21,7 +21,7 @@ struct Fade {
 
 struct Lighting {
     LampStates lamps;
-    std::optional<Fade> fade;  // from what was lit before to the lamps
+    std::optional<Fade> fade;  // from what was lit before to `lamps`
     float fade_seconds = 1;
     int selected = -1;     // lamp
     int scrolled_to = -1;  // lamp that the panel has scrolled into view

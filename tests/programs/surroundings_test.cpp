@@ -35,7 +35,7 @@ void expect_refusal(const Outcome& outcome, const std::string& named) {
 }
 
 /// A scene, its map, a picture and the points of many sensors.
-class CollisionMesh : public testing::Test {
+class Surroundings : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         folder = std::make_unique<TempFolder>();
@@ -51,7 +51,7 @@ class CollisionMesh : public testing::Test {
     static inline std::unique_ptr<TempFolder> folder;
 };
 
-TEST_F(CollisionMesh, StreamsThatAreClosedLeadNowhereAndToNoFileOfTheProgram) {
+TEST_F(Surroundings, StreamsThatAreClosedLeadNowhereAndToNoFileOfTheProgram) {
     const Outcome outcome = in_shell(*folder, R"sh(
         $BIN/lumenwalk-bake $CUBE -o kept --photons 20000000 <&- >&- 2>&- & bake=$!
         for wait in $(seq 100); do [ "$(readlink /proc/$bake/fd/2)" = /dev/null ] && break; sleep 0.05; done
@@ -62,7 +62,7 @@ TEST_F(CollisionMesh, StreamsThatAreClosedLeadNowhereAndToNoFileOfTheProgram) {
     EXPECT_TRUE(read_text(*folder / "mute") == read_text(*folder / "map"));
 }
 
-TEST_F(CollisionMesh, WhatCannotBePrintedIsTold) {
+TEST_F(Surroundings, WhatCannotBePrintedIsTold) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     for (const char* line :
          {"$BIN/lumenwalk-bake $CUBE -o printed --photons 2000", "$BIN/lumenwalk-compare a.exr a.exr",
@@ -71,7 +71,7 @@ TEST_F(CollisionMesh, WhatCannotBePrintedIsTold) {
         expect_refusal(in_shell(*folder, std::string(line) + " >/dev/full"), "what was printed is lost: No space left");
 }
 
-TEST_F(CollisionMesh, AReaderThatGoesAwayDoesNotKeepTablesFromBeingWritten) {
+TEST_F(Surroundings, AReaderThatGoesAwayDoesNotKeepTablesFromBeingWritten) {
     std::string points;
     for (int i = 0; i < 60; ++i) points += " --points points.csv";  // more lines than a pipe's buffer holds back
     const Outcome outcome =
@@ -79,7 +79,7 @@ TEST_F(CollisionMesh, AReaderThatGoesAwayDoesNotKeepTablesFromBeingWritten) {
     EXPECT_TRUE(contains(read_text(*folder / "table.csv"), "desk")) << outcome.err;
 }
 
-TEST_F(CollisionMesh, OutputsThatAreNoFilesStayWhatTheyAre) {
+TEST_F(Surroundings, OutputsThatAreNoFilesStayWhatTheyAre) {
     ASSERT_EQ(mkfifo((*folder / "pipe.exr").c_str(), 0600), 0);
     std::filesystem::create_symlink("/dev/null", *folder / "nothing.exr");
     for (const char* output : {"pipe.exr", "nothing.exr"}) {
@@ -94,7 +94,7 @@ TEST_F(CollisionMesh, OutputsThatAreNoFilesStayWhatTheyAre) {
     EXPECT_TRUE(std::filesystem::is_symlink(*folder / "nothing.exr"));
 }
 
-TEST_F(CollisionMesh, InputsThatHaveNoEndOrAreNoFilesAreRefused) {
+TEST_F(Surroundings, InputsThatHaveNoEndOrAreNoFilesAreRefused) {
     std::filesystem::create_symlink("loop", *folder / "loop");
     ASSERT_EQ(mkfifo((*folder / "pipe").c_str(), 0600), 0);  // which nobody writes to
     for (const char* input : {"/dev/zero", "/dev/null", "/dev/random", "loop", ".", "pipe"})
@@ -111,7 +111,7 @@ TEST_F(CollisionMesh, InputsThatHaveNoEndOrAreNoFilesAreRefused) {
     EXPECT_FALSE(std::filesystem::exists(*folder / "made"));
 }
 
-TEST_F(CollisionMesh, NamesThatSteerATerminalAreToldInOnePlainLine) {
+TEST_F(Surroundings, NamesThatSteerATerminalAreToldInOnePlainLine) {
     for (const char* program : {"bake", "reference", "measure", "screenshot", "compare", ""}) {
         const std::string name = "no\n\x1b[31mscene.png";
         const Words words = std::string(program) == "measure"   ? Words{name, "--points", "points.csv"}
@@ -124,7 +124,7 @@ TEST_F(CollisionMesh, NamesThatSteerATerminalAreToldInOnePlainLine) {
     }
 }
 
-TEST_F(CollisionMesh, FilesWithOddNamesAreReadAndWritten) {
+TEST_F(Surroundings, FilesWithOddNamesAreReadAndWritten) {
     const std::string names[] = {"a room",     "-room", "zimmer \xc3\xa4\xe2\x82\xac \xf0\x9f\x92\xa1",
                                  "two\nlines", "100%",  "'quoted'"};
     for (const std::string& name : names) {
@@ -137,7 +137,7 @@ TEST_F(CollisionMesh, FilesWithOddNamesAreReadAndWritten) {
 }
 
 /// A locale in which numbers have a comma, made for this test.
-TEST_F(CollisionMesh, ALocaleWithDecimalCommasChangesNoNumber) {
+TEST_F(Surroundings, ALocaleWithDecimalCommasChangesNoNumber) {
     if (in_shell(*folder, "localedef -i de_DE -f UTF-8 ./de_DE.UTF-8 || [ -d de_DE.UTF-8 ]").exit_code != 0)
         GTEST_SKIP() << "no localedef here";
     for (const char* line : {"$BIN/lumenwalk-bake $CUBE -o @.pmap --photons 2000 --radius 0.25 --neighbour-angle 45.5",
@@ -157,7 +157,7 @@ TEST_F(CollisionMesh, ALocaleWithDecimalCommasChangesNoNumber) {
     }
 }
 
-TEST_F(CollisionMesh, AnEnvironmentOfNonsenseChangesNoPicture) {
+TEST_F(Surroundings, AnEnvironmentOfNonsenseChangesNoPicture) {
     SKIP_WITHOUT_LAVAPIPE();
     const std::string nonsense =
         "env -u HOME TMPDIR=/nowhere XDG_CACHE_HOME=/nowhere XDG_RUNTIME_DIR=/nowhere LANG=nonsense LC_ALL=xx "
@@ -177,7 +177,7 @@ constexpr bool takes_all_addresses = true;
 constexpr bool takes_all_addresses = false;
 #endif
 
-TEST_F(CollisionMesh, ALimitOfMemoryIsAskedFirstAndToldWithWhatWouldFit) {
+TEST_F(Surroundings, ALimitOfMemoryIsAskedFirstAndToldWithWhatWouldFit) {
     if (takes_all_addresses) GTEST_SKIP() << "a sanitizer takes more addresses";
     const auto refused = [&](const std::string& line, const std::string& told) {
         expect_refusal(in_shell(*folder, "ulimit -v 2000000\n" + line), told);
@@ -204,7 +204,7 @@ TEST_F(CollisionMesh, ALimitOfMemoryIsAskedFirstAndToldWithWhatWouldFit) {
     EXPECT_EQ(in_shell(*folder, "ulimit -v 2000000\n$BIN/lumenwalk-bake $CUBE -o made --photons 2000").exit_code, 0);
 }
 
-TEST_F(CollisionMesh, APictureThatIsTooLargeForTheDeviceIsToldWithWhatWouldFit) {
+TEST_F(Surroundings, APictureThatIsTooLargeForTheDeviceIsToldWithWhatWouldFit) {
     SKIP_WITHOUT_LAVAPIPE();
     const auto shot = [&](const std::string& size) {
         return in_shell(*folder,
