@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "file/map_file.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 
 namespace lw {
 
@@ -33,9 +33,7 @@ void Baking::bake(uint64_t photons, bool is_full) {
         const std::lock_guard lock(mutex_);
         renderer_ = is_full ? "" : "preview: ";
     }
-    const BakeSettings settings{photons, 0, BakeSettings{}.neighbour_angle_deg, BakeSettings{}.seed, false};
-    const Photons request = shoot_photons(scene_, caster_, {settings.photons, settings.seed, false});
-    PhotonMap map = build_photon_map(scene_, caster_, request, settings);
+    PhotonMap map = lw::bake(scene_, caster_, {.photons = photons});
     if (board_.is_cancelled()) throw Error("cancelled");
     std::string trouble;
     if (is_full && !settings_.output.empty()) {

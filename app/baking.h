@@ -4,7 +4,8 @@
 #include <thread>
 
 #include "base/progress.h"
-#include "maps/build.h"
+#include "maps/photon_map.h"
+#include "trace/ray_caster.h"
 
 namespace lw {
 

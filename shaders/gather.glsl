@@ -1,8 +1,9 @@
-// Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2). One text for C++ and GLSL.
-// The including scope provides the functions grid_at, is_cut (false for no_map), cell_start, photon_place, photon_flux,
-// photon_direction, lamp_power, light_at, node_coverage, cell_light and the constants has_caustics, gather_mode,
-// neighbours, heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage,
-// has_followed. Needs photon_map.h and bsdf.glsl.
+// Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
+// Real-Time Walkthrough Rendering, 2012). One text for C++ and GLSL. The including scope provides the functions
+// grid_at, is_cut (false for no_map), cell_start, photon_place, photon_flux, photon_direction, lamp_power, light_at,
+// node_coverage, cell_light and the constants has_caustics, gather_mode, neighbours, heap_size, max_radius,
+// inverse_flux_scale, inverse_irradiance_scale, has_directions, has_coverage, has_followed. Needs photon_map.h and
+// bsdf.glsl.
 
 Gathered no_light() LW_MEMBER {
     Gathered nothing;

@@ -106,7 +106,7 @@ struct PhotonPlace {
 LW_CONST float max_followed_roughness = 0.75f;
 
 /// How photons become light.
-LW_CONST uint gather_mode_exact = 0u;    // the k nearest photons, with a heap: the paper's way
+LW_CONST uint gather_mode_exact = 0u;    // the k nearest photons, with a heap, as in the paper (docs/method.md)
 LW_CONST uint gather_mode_smooth = 1u;   // bandwidth from cell counts, one pass with a smooth kernel
 LW_CONST uint gather_mode_cached = 2u;   // irradiance of the lattice nodes
 LW_CONST uint gather_mode_inspect = 3u;  // no light: what the smooth estimate stands on (shaders/inspect.glsl)

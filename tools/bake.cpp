@@ -14,6 +14,7 @@
 #include "base/program.h"
 #include "base/replaced_file.h"
 #include "file/map_file.h"
+#include "maps/bake.h"
 #include "maps/bake_memory.h"
 #include "maps/build.h"
 #include "number_option.h"
@@ -92,8 +93,11 @@ void print_map(const lw::PhotonMap& map, size_t triangles) {
 
 void bake(const Options& options) {
     const lw::ThreadLimit limit(options.threads);
-    lw::BakeSettings settings{options.photons, *parse_radius(options.radius), options.neighbour_angle_deg, options.seed,
-                              options.direct == "photons"};
+    const lw::BakeSettings settings{.photons = options.photons,
+                                    .radius = *parse_radius(options.radius),
+                                    .neighbour_angle_deg = options.neighbour_angle_deg,
+                                    .seed = options.seed,
+                                    .direct_in_photons = options.direct == "photons"};
     const std::filesystem::path output =
         options.output.empty() ? lw::default_map_path(options.scene) : std::filesystem::path(options.output);
     PhaseClock clock;
@@ -105,8 +109,7 @@ void bake(const Options& options) {
     clock.finish("load");
     const lw::RayCaster caster(scene);
     clock.finish("hierarchy");
-    const lw::Photons photons =
-        lw::shoot_photons(scene, caster, {settings.photons, settings.seed, settings.direct_in_photons});
+    const lw::Photons photons = lw::shoot_photons(scene, caster, lw::shoot_settings(settings));
     clock.finish("trace");
     const lw::PhotonMap map = lw::build_photon_map(scene, caster, photons, settings);
     clock.finish("maps");

@@ -12,15 +12,14 @@
 #include "base/progress.h"
 #include "base/replaced_file.h"
 #include "file/map_file.h"
+#include "maps/bake.h"
 #include "maps/bake_memory.h"
-#include "maps/build.h"
 #include "measure/grid.h"
 #include "measure/report.h"
 #include "measure/survey.h"
 #include "measure/table.h"
 #include "measure_options.h"
 #include "photometry/photometry.h"
-#include "photons/shoot.h"
 #include "scene/camera.h"
 #include "scene/load_scene.h"
 
@@ -36,8 +35,7 @@ lw::PhotonMap map_of(const lw::MeasureOptions& o, const lw::Scene& scene, const 
     lw::BakeSettings settings;
     settings.photons = o.photons > 0 ? o.photons : photons_to_start_with;
     lw::check_bake_fits(scene, settings, lw::available_memory());
-    return lw::build_photon_map(scene, caster, lw::shoot_photons(scene, caster, {settings.photons, settings.seed}),
-                                settings);
+    return lw::bake(scene, caster, settings);
 }
 
 std::vector<lw::SensorSet> sets_of(const lw::MeasureOptions& o, const lw::Scene& scene) {

@@ -6,12 +6,11 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "maps/bake.h"
 #include "maps/bake_memory.h"
-#include "maps/build.h"
 #include "maps/probe.h"
 #include "measure/option_parsing.h"
 #include "measure/placing.h"
-#include "photons/shoot.h"
 #include "scene/ambiance.h"
 #include "scene/lamp_factors.h"
 #include "trace/build_bvh.h"
@@ -93,8 +92,7 @@ PhotonMap bake_again(const Scene& scene, const RayCaster& caster, const BakeSett
     BakeSettings settings = before;
     settings.photons = photons;
     settings.radius = 0;
-    const Photons shot = shoot_photons(scene, caster, {photons, settings.seed, settings.direct_in_photons});
-    return build_photon_map(scene, caster, shot, settings);
+    return bake(scene, caster, settings);
 }
 
 std::string text_of(const char* format, auto... values) {

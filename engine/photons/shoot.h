@@ -1,5 +1,6 @@
 // Photon tracing: particles leave the lamps at unit power and are stored at every surface that is not purely specular
-// (Jensen 2001; paper, section 2.3).
+// (Jensen 2001). Unit power as in Graglia, Sequeira, Mavromatis, Real-Time Walkthrough Rendering, 2012 ("the paper"),
+// section 2.3.
 #pragma once
 #include "photons/photon.h"
 #include "trace/ray_caster.h"

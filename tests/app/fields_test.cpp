@@ -8,8 +8,7 @@
 #include "app/display.h"
 #include "app/measuring/field_reader.h"
 #include "app/measuring/metering.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 
 namespace lw {
 namespace {
@@ -17,8 +16,7 @@ namespace {
 struct Cube {
     Cube()
         : world(LUMENWALK_SOURCE_DIR "/data/cube.gltf", {}, {}),
-          map(std::make_shared<const PhotonMap>(build_photon_map(
-              world.scene, world.caster, shoot_photons(world.scene, world.caster, {20'000, 1}), {20'000, 0, 60, 1}))),
+          map(std::make_shared<const PhotonMap>(bake(world.scene, world.caster, {.photons = 20'000}))),
           reader(world.scene, world.caster) {}
 
     void read(Fields& fields) {

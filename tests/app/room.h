@@ -3,8 +3,7 @@
 #include "app/picture/progressive_renderer.h"
 #include "app/session/world.h"
 #include "gpu/buffer.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 
 namespace lw {
 
@@ -12,8 +11,7 @@ struct Room {
     explicit Room(const std::string& name = "cornell.gltf", vk::Extent2D pixels = {96, 128}, uint64_t photons = 30'000)
         : size(pixels),
           world(LUMENWALK_SOURCE_DIR "/data/" + name, {}, {}),
-          map(std::make_shared<const PhotonMap>(build_photon_map(
-              world.scene, world.caster, shoot_photons(world.scene, world.caster, {photons, 1}), {photons, 0, 60, 1}))),
+          map(std::make_shared<const PhotonMap>(bake(world.scene, world.caster, {.photons = photons}))),
           device({"llvmpipe", true, {}}),
           renderer(device, world.scene, map, world.bvh) {
         renderer.resize(size);

@@ -2,8 +2,7 @@
 #include "app/picture/viewer.h"
 
 #include "app/display.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 
 namespace lw {
 namespace {
@@ -19,8 +18,7 @@ TEST(Viewer, WhatTheUserDoesIsOnTheScreenWithinTwoFrames) {
     SKIP_WITHOUT_DISPLAY();
     const Display display;
     const World world(LUMENWALK_SOURCE_DIR "/data/cornell.gltf", {}, {});
-    const auto map = std::make_shared<const PhotonMap>(build_photon_map(
-        world.scene, world.caster, shoot_photons(world.scene, world.caster, {10'000, 1}), {10'000, 0, 60, 1}));
+    const auto map = std::make_shared<const PhotonMap>(bake(world.scene, world.caster, {.photons = 10'000}));
     const TempFolder folder;
     Session session(world, folder.path());
     session.viewing.auto_exposure = false;
@@ -50,8 +48,7 @@ TEST(Viewer, APictureThatIsNoLightIsNotSaved) {
     SKIP_WITHOUT_DISPLAY();
     const Display display;
     const World world(LUMENWALK_SOURCE_DIR "/data/cube.gltf", {}, {});
-    PhotonMap map = build_photon_map(world.scene, world.caster, shoot_photons(world.scene, world.caster, {2'000, 1}),
-                                     {2'000, 0, 60, 1});
+    PhotonMap map = bake(world.scene, world.caster, {.photons = 2'000});
     const TempFolder folder;
     Session session(world, folder.path());
     Window window("Lumenwalk - no light", {64, 48});

@@ -35,7 +35,7 @@ TEST(Rooms, HaveAboutTheTrianglesAskedForAndTheLamps) {
 TEST(Rooms, LetNoLightEscape) {
     const Scene room = make_room({});
     const RayCaster caster(room);
-    const Photons photons = shoot_photons(room, caster, {20'000, 1, true});
+    const Photons photons = shoot_photons(room, caster, {.photons = 20'000, .direct_in_photons = true});
     for (const LightBalance& light : photons.lights) EXPECT_LT(light.escaped, 1e-3 * light.flux_out);
 }
 
@@ -58,7 +58,7 @@ TEST(NeighbourSearch, FourStructuresFindTheSamePhotonsOnAFlatFloor) {
     const RayCaster caster(room);
     BakeSettings bake;
     bake.photons = 200'000;
-    const Photons photons = shoot_photons(room, caster, {bake.photons, 1, true});
+    const Photons photons = shoot_photons(room, caster, {.photons = bake.photons, .direct_in_photons = true});
     const PhotonMap map = build_photon_map(room, caster, photons, bake);
     const PhotonCloud cloud(room, photons.records);
     const MapGridSearch grid(map);

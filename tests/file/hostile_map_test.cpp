@@ -15,8 +15,7 @@
 #include "file/map_file.h"
 #include "fuzz/feed.h"
 #include "gather/renderer.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 #include "programs/lavapipe.h"
 #include "trace/build_bvh.h"
 
@@ -30,8 +29,7 @@ std::string small_map(uint64_t photons, bool direct_in_photons) {
     const Scene& scene = scene_of_maps();
     const RayCaster caster(scene);
     const auto path = std::filesystem::temp_directory_path() / ("lw_hostile_" + std::to_string(getpid()) + ".pmap");
-    save_photon_map(path, build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1, direct_in_photons}),
-                                           {photons, 0, 60, 1, direct_in_photons}));
+    save_photon_map(path, bake(scene, caster, {.photons = photons, .direct_in_photons = direct_in_photons}));
     std::ifstream in(path, std::ios::binary);
     std::string bytes(std::istreambuf_iterator<char>(in), {});
     std::filesystem::remove(path);

@@ -12,8 +12,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 #include "robustness/room.h"
 #include "scene/gltf.h"
 
@@ -26,7 +25,7 @@ class MapFile : public testing::Test {
         : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/cube.gltf")),
           path(std::filesystem::temp_directory_path() / ("lw_map_" + std::to_string(getpid()) + ".pmap")) {
         const RayCaster caster(scene);
-        map = build_photon_map(scene, caster, shoot_photons(scene, caster, {500, 1}), {500, 0, 60, 1});
+        map = bake(scene, caster, {.photons = 500});
         save_photon_map(path, map);
         std::ifstream in(path, std::ios::binary);
         bytes.assign(std::istreambuf_iterator<char>(in), {});
@@ -135,7 +134,7 @@ TEST_F(MapFile, SignedMapsThatLeadOutOfTheirArraysAreRefused) {
 TEST_F(MapFile, WithCausticsRoundTripsAndIsRefusedWhenTheirGridsAreMixedUp) {
     const Scene glass = load_gltf(LUMENWALK_SOURCE_DIR "/data/glass_sphere.gltf");
     const RayCaster caster(glass);
-    const PhotonMap good = build_photon_map(glass, caster, shoot_photons(glass, caster, {5000, 1}), {5000, 0, 60, 1});
+    const PhotonMap good = bake(glass, caster, {.photons = 5000});
     ASSERT_GT(good.caustic_grids, 0u);
     save_photon_map(path, good);
     const PhotonMap got = load_photon_map(path, glass);

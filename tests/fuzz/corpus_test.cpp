@@ -8,8 +8,7 @@
 
 #include "base/error.h"
 #include "fuzz/feed.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 
 namespace lw::test {
 namespace {
@@ -32,8 +31,7 @@ std::vector<uint8_t> bytes_of(const std::filesystem::path& path) {
 void bake(const Scene& scene) {
     try {
         const RayCaster caster(scene);
-        const Photons photons = shoot_photons(scene, caster, {200, 1});
-        build_photon_map(scene, caster, photons, {200, 0, 60, 1});
+        lw::bake(scene, caster, {.photons = 200});
     } catch (const Error&) {
     }
 }

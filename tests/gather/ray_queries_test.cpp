@@ -9,8 +9,7 @@
 
 #include "base/error.h"
 #include "gather/renderer.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 #include "scene/gltf.h"
 #include "trace/build_bvh.h"
 
@@ -55,7 +54,7 @@ struct Pictures {
         : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/" + file)) {
         if (change) change(scene);
         const RayCaster caster(scene);
-        map = build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1});
+        map = bake(scene, caster, {.photons = photons});
         bvh = build_bvh(scene);
     }
     Image on(const Device& device) const {

@@ -159,9 +159,9 @@ TEST(Renderer, LightsBlackSurfacesByMeshesInEveryMode) {
     Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/cornell.gltf");
     for (Material& m : scene.materials) m.base_color = vec3(0), m.specular = 0, m.metallic = 0;
     const RayCaster caster(scene);
-    const Photons photons = shoot_photons(scene, caster, {1000, 1});
+    const Photons photons = shoot_photons(scene, caster, {.photons = 1000});
     ASSERT_TRUE(photons.records.empty());
-    const PhotonMap map = build_photon_map(scene, caster, photons, {1000, 0, 60, 1});
+    const PhotonMap map = build_photon_map(scene, caster, photons, {.photons = 1000});
     const Device device({"", true});
     const Bvh bvh = build_bvh(scene);
     const Resident resident(device, scene, map, bvh);

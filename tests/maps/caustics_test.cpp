@@ -23,8 +23,8 @@ struct Baked {
     Baked(const std::string& name, uint64_t count)
         : scene(load_gltf(file_in_data(name))),
           caster(scene),
-          photons(shoot_photons(scene, caster, {count, 1})),
-          map(build_photon_map(scene, caster, photons, {count, 0, 60, 1})) {}
+          photons(shoot_photons(scene, caster, {.photons = count})),
+          map(build_photon_map(scene, caster, photons, {.photons = count})) {}
     Scene scene;
     RayCaster caster;
     Photons photons;

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "benchmark/rooms.h"
+#include "maps/bake.h"
 #include "maps/build.h"
 #include "maps/packing.h"
 #include "photons/shoot.h"
@@ -28,8 +29,8 @@ struct Baked {
     explicit Baked(const std::string& name, uint64_t count = 200000)
         : scene(load_gltf(file_in_data(name))),
           caster(scene),
-          photons(shoot_photons(scene, caster, {count, 1, true})),
-          map(build_photon_map(scene, caster, photons, {count, 0, 60, 1, true})),
+          photons(shoot_photons(scene, caster, {.photons = count, .direct_in_photons = true})),
+          map(build_photon_map(scene, caster, photons, {.photons = count, .direct_in_photons = true})),
           weights(lamp_powers(scene, {})) {}
     Scene scene;
     RayCaster caster;
@@ -57,7 +58,8 @@ TEST(Bake, GivesTheSameBytesAtOneAndTwoThreads) {
 TEST(Bake, AnotherSeedGivesOtherPhotons) {
     const Scene scene = load_gltf(file_in_data("cube.gltf"));
     const RayCaster caster(scene);
-    const Photons a = shoot_photons(scene, caster, {1000, 1}), b = shoot_photons(scene, caster, {1000, 2});
+    const Photons a = shoot_photons(scene, caster, {.photons = 1000}),
+                  b = shoot_photons(scene, caster, {.photons = 1000, .seed = 2});
     ASSERT_FALSE(a.records.empty());
     EXPECT_NE(a.records[0].position, b.records[0].position);
 }
@@ -65,15 +67,16 @@ TEST(Bake, AnotherSeedGivesOtherPhotons) {
 TEST(Bake, ARadiusTooSmallForTheSceneIsRefused) {
     const Scene scene = load_gltf(file_in_data("cube.gltf"));
     const RayCaster caster(scene);
-    const Photons photons = shoot_photons(scene, caster, {1000, 1});
-    EXPECT_THROW(build_photon_map(scene, caster, photons, {1000, 1e-6f, 60, 1}), Error);
+    const Photons photons = shoot_photons(scene, caster, {.photons = 1000});
+    EXPECT_THROW(build_photon_map(scene, caster, photons, {.photons = 1000, .radius = 1e-6f}), Error);
 }
 
 TEST(Bake, ARadiusLargerThanTheSceneIsItsSize) {
     const Scene scene = load_gltf(file_in_data("cube.gltf"));
     const RayCaster caster(scene);
-    const Photons photons = shoot_photons(scene, caster, {1000, 1});
-    EXPECT_EQ(build_photon_map(scene, caster, photons, {1000, 1e9f, 60, 1}).settings.radius, scene.size());
+    const Photons photons = shoot_photons(scene, caster, {.photons = 1000});
+    EXPECT_EQ(build_photon_map(scene, caster, photons, {.photons = 1000, .radius = 1e9f}).settings.radius,
+              scene.size());
 }
 
 TEST(Photons, AWhiteFloorUnderTheSkyIsLitAlthoughItAbsorbsNothing) {
@@ -86,9 +89,9 @@ TEST(Photons, AWhiteFloorUnderTheSkyIsLitAlthoughItAbsorbsNothing) {
         m.specular = 0;
     }
     const RayCaster caster(scene);
-    const Photons photons = shoot_photons(scene, caster, {1000, 1});
+    const Photons photons = shoot_photons(scene, caster, {.photons = 1000});
     EXPECT_LT(photons.lights[0].absorbed, 1e-6 * photons.lights[0].flux_out);
-    EXPECT_NO_THROW(build_photon_map(scene, caster, photons, {1000, 0, 60, 1}));
+    EXPECT_NO_THROW(build_photon_map(scene, caster, photons, {.photons = 1000}));
 }
 
 TEST(Photons, StoredFluxOfAClosedBoxIsEmittedOverOneMinusAlbedo) {
@@ -229,8 +232,7 @@ TEST(Estimate, ShadowRaysAgreeWithEmbree) {
 TEST(Estimate, WhatNodesSeeOfALampSavesRaysButChangesNoLight) {
     const Scene scene = load_gltf(file_in_data("cornell.gltf"));
     const RayCaster caster(scene);
-    const PhotonMap known =
-        build_photon_map(scene, caster, shoot_photons(scene, caster, {20000, 1}), {20000, 0, 60, 1});
+    const PhotonMap known = bake(scene, caster, {.photons = 20000});
     ASSERT_TRUE(known.has_visible_lamps());
     PhotonMap unknown = known;
     unknown.visible_lamps.clear();
@@ -283,8 +285,7 @@ TEST(Estimate, LightOfCellsHoldsSmallLampsAsTheyAre) {
     room.lamps = Lamps::points;
     const Scene scene = make_room(room);
     const RayCaster caster(scene);
-    const PhotonMap map =
-        build_photon_map(scene, caster, shoot_photons(scene, caster, {300000, 1}), {300000, 0, 60, 1});
+    const PhotonMap map = bake(scene, caster, {.photons = 300000});
     PhotonMap by_rays = map;
     by_rays.visible_lamps.clear();  // then every lamp is looked at from every point
     const Bvh bvh = build_bvh(scene);

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 #include "scene/gltf.h"
 #include "trace/build_bvh.h"
 #include "trace/path_tracer.h"
@@ -19,7 +18,7 @@ namespace {
 struct Baked {
     explicit Baked(const std::string& name, uint64_t photons)
         : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/" + name)), caster(scene), bvh(build_bvh(scene)) {
-        map = build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1});
+        map = bake(scene, caster, {.photons = photons});
     }
     Scene scene;
     RayCaster caster;

@@ -16,7 +16,10 @@ namespace {
 
 /// A furnished room with patches of one triangle, shared ones, and cut ones.
 struct Room {
-    Room() : scene(make_room({10'000, 2})), caster(scene), photons(shoot_photons(scene, caster, {50'000, 1, true})) {
+    Room()
+        : scene(make_room({10'000, 2})),
+          caster(scene),
+          photons(shoot_photons(scene, caster, {.photons = 50'000, .direct_in_photons = true})) {
         cut_patches(scene, radius, patches, shapes);
         radii = patch_radii(shapes, radius, 0.5f * radius);
         neighbours.emplace(shapes, radii, 60.0f, radius);

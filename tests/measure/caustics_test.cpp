@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include "maps/build.h"
+#include "maps/bake.h"
 #include "measure/survey.h"
-#include "photons/shoot.h"
 #include "scene/gltf.h"
 #include "trace/caustics.h"
 
@@ -17,8 +16,7 @@ TEST(Caustics, SensorsUnderAndAroundTheGlassBallAgreeWithThePathTracer) {
     const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/glass_sphere.gltf");
     const RayCaster caster(scene);
     constexpr uint64_t photons = 300'000;
-    const PhotonMap map =
-        build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1});
+    const PhotonMap map = bake(scene, caster, {.photons = photons});
     ASSERT_GT(map.caustic_grids, 0u);
     std::vector<Sensor> on_floor, in_air, focus;
     for (int x = 0; x < 6; ++x)

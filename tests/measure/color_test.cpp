@@ -5,9 +5,8 @@
 
 #include "base/error.h"
 #include "benchmark/lab_scene.h"
-#include "maps/build.h"
+#include "maps/bake.h"
 #include "measure/survey.h"
-#include "photons/shoot.h"
 #include "scene/ambiance.h"
 #include "scene/lamp_factors.h"
 
@@ -42,8 +41,7 @@ std::vector<Sensor> sensors_in(const Scene& scene) {
 
 Survey survey_of(const Scene& scene, const RayCaster& caster, std::vector<AmbianceFactors> ambiances) {
     constexpr uint64_t photons = 150'000;
-    const PhotonMap map =
-        build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1});
+    const PhotonMap map = bake(scene, caster, {.photons = photons});
     return make_survey(scene, caster, map, {{SensorSet::Kind::points, "points", "", sensors_in(scene), {}, {}}},
                        std::move(ambiances), {});
 }

@@ -6,10 +6,9 @@
 
 #include <cmath>
 
-#include "maps/build.h"
+#include "maps/bake.h"
 #include "measure/option_parsing.h"
 #include "measure/survey.h"
-#include "photons/shoot.h"
 #include "scene/gltf.h"
 
 namespace lw {
@@ -44,8 +43,7 @@ Coverage coverage_of(const std::string& file, const std::string& name, uint64_t 
     const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/" + file);
     const RayCaster caster(scene);
     const Truth truth = read_truth(name);
-    const PhotonMap map =
-        build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, seed}), {photons, 0, 60, seed});
+    const PhotonMap map = bake(scene, caster, {.photons = photons, .seed = seed});
     const std::vector<vec3> full(scene.lights.size(), vec3(1));
     Survey survey = make_survey(scene, caster, map, {{SensorSet::Kind::points, "points", "", truth.sensors, {}, {}}},
                                 {{"all", full}}, {});

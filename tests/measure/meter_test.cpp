@@ -6,14 +6,13 @@
 
 #include "base/parallel.h"
 #include "benchmark/lab_scene.h"
-#include "maps/build.h"
+#include "maps/bake.h"
 #include "measure/grid.h"
 #include "measure/html.h"
 #include "measure/isolux.h"
 #include "measure/survey.h"
 #include "measure/table.h"
 #include "measure/view.h"
-#include "photons/shoot.h"
 #include "programs/command.h"
 
 namespace lw {
@@ -31,8 +30,7 @@ Scene two_chambers() {
 
 Survey survey_of(const Scene& scene, std::vector<SensorSet> sets, std::vector<AmbianceFactors> ambiances) {
     const RayCaster caster(scene);
-    const PhotonMap map =
-        build_photon_map(scene, caster, shoot_photons(scene, caster, {50'000, 1}), {50'000, 0, 60, 1});
+    const PhotonMap map = bake(scene, caster, {.photons = 50'000});
     return make_survey(scene, caster, map, std::move(sets), std::move(ambiances), {});
 }
 
@@ -101,7 +99,7 @@ TEST(Meter, ReadsTheSameAtAnyThreadCount) {
 TEST(Meter, AnErrorAskedForIsReachedByBakingAgain) {
     const Scene scene = two_chambers();
     const RayCaster caster(scene);
-    const PhotonMap map = build_photon_map(scene, caster, shoot_photons(scene, caster, {2000, 1}), {2000, 0, 60, 1});
+    const PhotonMap map = bake(scene, caster, {.photons = 2000});
     SurveySettings settings;
     settings.error = 0.02;
     const Survey survey = make_survey(scene, caster, map, {points({{{1, 0.7f, 1.5f}, {0, -1, 0}, Response::planar}})},
@@ -120,7 +118,7 @@ TEST(Meter, AnErrorAskedForIsReachedByBakingAgain) {
 TEST(Meter, TooFewPhotonsAreDoubted) {
     const Scene scene = two_chambers();
     const RayCaster caster(scene);
-    const PhotonMap map = build_photon_map(scene, caster, shoot_photons(scene, caster, {60, 1}), {60, 0, 60, 1});
+    const PhotonMap map = bake(scene, caster, {.photons = 60});
     const Survey survey = make_survey(scene, caster, map, {points({{{1, 0.7f, 1.5f}, {0, -1, 0}, Response::planar}})},
                                       {{"all", {vec3(1), vec3(1)}}}, {});
     EXPECT_FALSE(values_of(survey.sets[0], survey.ambiances[0], 1)[0].doubt.empty());

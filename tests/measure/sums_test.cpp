@@ -6,10 +6,9 @@
 #include <map>
 
 #include "benchmark/lab_scene.h"
-#include "maps/build.h"
+#include "maps/bake.h"
 #include "measure/grid.h"
 #include "measure/survey.h"
-#include "photons/shoot.h"
 
 namespace lw {
 namespace {
@@ -67,8 +66,7 @@ Scene black_room() {
 
 Survey measured(const Scene& scene, std::vector<SensorSet> sets) {
     const RayCaster caster(scene);
-    const PhotonMap map =
-        build_photon_map(scene, caster, shoot_photons(scene, caster, {20'000, 1}), {20'000, 0, 60, 1});
+    const PhotonMap map = bake(scene, caster, {.photons = 20'000});
     return make_survey(scene, caster, map, std::move(sets), {{"all", std::vector<vec3>(scene.lights.size(), vec3(1))}},
                        {});
 }

@@ -7,9 +7,8 @@
 
 #include "gather/renderer.h"
 #include "gather/resident.h"
-#include "maps/build.h"
+#include "maps/bake.h"
 #include "maps/estimate.h"
-#include "photons/shoot.h"
 #include "scene/gltf.h"
 #include "scene/profile.h"
 #include "trace/build_bvh.h"
@@ -23,7 +22,7 @@ struct Baked {
     Baked(const std::string& name, uint64_t count, const std::vector<std::string>& photometry = {})
         : scene(with_photometry(load_gltf(LUMENWALK_SOURCE_DIR "/data/" + name), photometry)),
           caster(scene),
-          map(build_photon_map(scene, caster, shoot_photons(scene, caster, {count, 1}), {count, 0, 60, 1})),
+          map(bake(scene, caster, {.photons = count})),
           bvh(build_bvh(scene)) {}
     Scene scene;
     RayCaster caster;

@@ -34,7 +34,7 @@ TEST(GlassPhotons, EveryLampBalancesInRoomsOfEveryMaterial) {
     for (const char* name : {"glass_sphere.gltf", "metal_sculpture.gltf", "glossy_floor.gltf"}) {
         const Scene scene = load_gltf(file_in_data(name));
         const RayCaster caster(scene);
-        const Photons photons = shoot_photons(scene, caster, {50000, 1, true});
+        const Photons photons = shoot_photons(scene, caster, {.photons = 50000, .direct_in_photons = true});
         for (const LightBalance& b : photons.lights) {
             EXPECT_NEAR((b.absorbed + b.escaped) / b.flux_out, 1, 1e-9) << name;
             EXPECT_LT(b.escaped, 1e-4 * b.flux_out) << name;  // the rooms are closed
@@ -81,7 +81,7 @@ TEST(GlassPhotons, BringTheLightOfThePathTracerThroughBallAndSheet) {
     // Under the ball: its caustic and the ring of its shadow; behind the sheet; in the open. Spot, bulb and panel.
     const Scene scene = load_gltf(file_in_data("glass_sphere.gltf"));
     const RayCaster caster(scene);
-    const Photons photons = shoot_photons(scene, caster, {1000000, 1, true});
+    const Photons photons = shoot_photons(scene, caster, {.photons = 1000000, .direct_in_photons = true});
     for (const Square& at : {Square{"spot", 0, 0, 0.1f}, Square{"spot", 0.3f, 0.3f, 0.1f}, Square{"bulb", 0, 0, 0.2f},
                              Square{"bulb", 0.2f, -0.4f, 0.2f}, Square{"panel", 0, 0, 0.2f},
                              Square{"panel", -0.5f, 0.4f, 0.2f}, Square{"panel", 0.7f, -0.3f, 0.2f}}) {
@@ -110,7 +110,7 @@ TEST(GlassPhotons, BringTheLightOfThePathTracerByMetalAndGloss) {
                              Room{"glossy_floor.gltf", {"panel", 1, 0.5f, 0.4f}}}) {
         const Scene scene = load_gltf(file_in_data(room.file));
         const RayCaster caster(scene);
-        const Photons photons = shoot_photons(scene, caster, {800000, 1, true});
+        const Photons photons = shoot_photons(scene, caster, {.photons = 800000, .direct_in_photons = true});
         const Square& at = room.at;
         const uint lamp = lamp_named(scene, at.lamp);
         std::vector<vec3> weights(scene.lights.size(), vec3(0));
@@ -127,13 +127,13 @@ TEST(GlassPhotons, BringTheLightOfThePathTracerByMetalAndGloss) {
 TEST(GlassPhotons, ThroughASheetLightStaysDirectAndThroughABallItIsCaustic) {
     const Scene scene = load_gltf(file_in_data("glass_sphere.gltf"));
     const RayCaster caster(scene);
-    const Photons photons = shoot_photons(scene, caster, {500000, 1, true});
+    const Photons photons = shoot_photons(scene, caster, {.photons = 500000, .direct_in_photons = true});
     const std::array<double, 4> ball = floor_lux(scene, photons, lamp_named(scene, "spot"), 0, 0, 0.05f);
     EXPECT_EQ(ball[path_direct], 0);
     EXPECT_GT(ball[path_caustic], 5 * ball[path_indirect]);
     const std::array<double, 4> sheet = floor_lux(scene, photons, lamp_named(scene, "bulb"), 0.1f, -0.4f, 0.2f);
     EXPECT_GT(sheet[path_direct], sheet[path_caustic] * 3);
-    const Photons others = shoot_photons(scene, caster, {100000, 1, false});
+    const Photons others = shoot_photons(scene, caster, {.photons = 100000});
     for (const Photon& p : others.records) ASSERT_NE(p.path(), path_direct);
 }
 
@@ -145,7 +145,7 @@ TEST(GlassPhotons, ALampBehindASolidCoverLightsTheRoom) {
     const uint spot = lamp_named(scene, "spot");
     scene.lights[spot].position = vec3(0, 0.45f, 0) - vec3(scene.origin);
     const RayCaster caster(scene);
-    const Photons photons = shoot_photons(scene, caster, {300000, 1, true});
+    const Photons photons = shoot_photons(scene, caster, {.photons = 300000, .direct_in_photons = true});
     double first = 0, direct = 0;
     for (const Photon& p : photons.records) {
         if (p.light() != spot || p.path() == path_indirect) continue;
@@ -166,7 +166,7 @@ TEST(GlassPhotons, BentNormalsThrowTheSameLightForPhotonsAndPaths) {
     for (const char* black : {"white", "red", "blue"}) material_named(scene, black).base_color = vec3(0);
     material_named(scene, "polished").roughness = 0.6f;
     const RayCaster caster(scene);
-    const Photons photons = shoot_photons(scene, caster, {1000000, 1, false});
+    const Photons photons = shoot_photons(scene, caster, {.photons = 1000000});
     const uint bulb = lamp_named(scene, "bulb");
     const vec3 origin(scene.origin), down(0, -1, 0);
     std::vector<vec3> weights(scene.lights.size(), vec3(0));
@@ -200,7 +200,7 @@ TEST(GlassPhotons, LightCaughtByTotalReflectionEnds) {
     const uint bulb = lamp_named(scene, "bulb");
     scene.lights[bulb].position = vec3(0.24f, 0.45f, 0) - vec3(scene.origin);
     const RayCaster caster(scene);
-    const Photons photons = shoot_photons(scene, caster, {20000, 1, true});
+    const Photons photons = shoot_photons(scene, caster, {.photons = 20000, .direct_in_photons = true});
     const LightBalance& b = photons.lights[bulb];
     EXPECT_NEAR((b.absorbed + b.escaped) / b.flux_out, 1, 1e-9);
     double caustic = 0;
@@ -224,7 +224,7 @@ TEST(GlassPhotons, BlendedSurfacesPassTheSameShareToPhotonsAndShadowRays) {
     const vec3 origin(scene.origin);
     const vec3 passed = caster.transmittance(vec3(0.8f, 0.8f, -0.4f) - origin, vec3(0.1f, 0.1f, -0.4f) - origin);
     EXPECT_NEAR(passed.y, 0.7f, 1e-6f);
-    const Photons photons = shoot_photons(scene, caster, {1000000, 1, true});
+    const Photons photons = shoot_photons(scene, caster, {.photons = 1000000, .direct_in_photons = true});
     double error = 0;
     const uint bulb = lamp_named(scene, "bulb");
     const double truth = traced_lux(scene, caster, bulb, 0.2f, -0.4f, 0.2f, 20000, nullptr, error);

@@ -6,9 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "maps/build.h"
+#include "maps/bake.h"
 #include "maps/estimate.h"
-#include "photons/shoot.h"
 #include "scene/gltf.h"
 #include "trace/bsdf.h"
 #include "trace/build_bvh.h"
@@ -296,8 +295,7 @@ TEST(Glass, AViewOfAFurnaceShowsItsRadianceWhateverStandsInIt) {
         double error = 0;
         const double truth = mean_radiance(scene, eye, ball, error);
         const RayCaster caster(scene);
-        const PhotonMap map =
-            build_photon_map(scene, caster, shoot_photons(scene, caster, {1'000'000, 1}), {1'000'000, 0, 60, 1});
+        const PhotonMap map = bake(scene, caster, {.photons = 1'000'000});
         const Bvh bvh = build_bvh(scene);
         const std::vector<vec3> weights = lamp_powers(scene, {});
         for (uint mode : {gather_mode_cached, gather_mode_smooth}) {

@@ -7,9 +7,8 @@
 #include <functional>
 
 #include "gather/renderer.h"
-#include "maps/build.h"
+#include "maps/bake.h"
 #include "maps/estimate.h"
-#include "photons/shoot.h"
 #include "scene/gltf.h"
 #include "trace/build_bvh.h"
 #include "trace/emitter.h"
@@ -32,7 +31,7 @@ struct Room {
         : scene(changed(file, change)),
           caster(scene),
           weights(lamp_powers(scene, {})),
-          map(build_photon_map(scene, caster, shoot_photons(scene, caster, {photons, 1}), {photons, 0, 60, 1})),
+          map(bake(scene, caster, {.photons = photons})),
           bvh(build_bvh(scene)) {}
     static Scene changed(const std::string& file, const std::function<void(Scene&)>& change) {
         Scene scene = load_gltf(file_in_data(file));

@@ -208,7 +208,7 @@ TEST(Light, OfOnePhotonOrNoneIsANumber) {
         check_everywhere(baked, room);
         Photons none;
         none.lights = baked.photons.lights;
-        const PhotonMap empty = build_photon_map(baked.scene, baked.caster, none, {1, 0, 60, 1});
+        const PhotonMap empty = build_photon_map(baked.scene, baked.caster, none, {.photons = 1});
         EXPECT_TRUE(empty.places.empty());
         tell_case(std::to_string(count) + " photons asked for; k of 1 to a million", "finite, >= 0 everywhere",
                   "%zu stored: %s", baked.photons.records.size(), HasFailure() ? "no" : "yes");
@@ -221,7 +221,7 @@ TEST(Light, OfPhotonsInOnePointIsANumberAndNotMoreThanThereIs) {
     ASSERT_FALSE(baked.photons.records.empty());
     const Photon one = baked.photons.records[0];
     baked.photons.records.assign(5'000, one);
-    baked.map = build_photon_map(baked.scene, baked.caster, baked.photons, {5'000, 0.1f, 60, 1});
+    baked.map = build_photon_map(baked.scene, baked.caster, baked.photons, {.photons = 5'000, .radius = 0.1f});
     check_everywhere(baked, room);
     EXPECT_EQ(baked.map.stored_photons, 5'000u);
     tell_case("5,000 photons in one point", "finite, >= 0 everywhere", "%s", HasFailure() ? "no" : "yes");

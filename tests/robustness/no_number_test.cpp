@@ -107,7 +107,8 @@ TEST(NoNumber, IsReadWhereAllPhotonsLieInOnePoint) {
         ASSERT_NE(photon, all.end());
         baked.photons.records.assign(500, *photon);
         for (Photon& p : baked.photons.records) p.position = surface.corner_position(triangle, 0);
-        const PhotonMap map = build_photon_map(baked.scene, baked.caster, baked.photons, {501, 0.1f, 60, 1});
+        const PhotonMap map =
+            build_photon_map(baked.scene, baked.caster, baked.photons, {.photons = 501, .radius = 0.1f});
         for (const uint mode : {gather_mode_exact, gather_mode_smooth, gather_mode_cached}) {
             const PhotonEstimator estimator(baked.scene, map, weights, {mode, 50, 0});
             const Gathered light = estimator.estimate(triangle, vec2(0), photon->from);
@@ -129,7 +130,8 @@ TEST(NoNumber, IsInNoPictureOfAMapOfHardlyAPhoton) {
     const Photon one = baked.photons.records[0];
     for (const auto& [count, mode] : {std::pair<size_t, uint>(0, gather_mode_cached), {5'000, gather_mode_exact}}) {
         baked.photons.records.assign(count, one);
-        const PhotonMap map = build_photon_map(baked.scene, baked.caster, baked.photons, {count + 1, 0.1f, 60, 1});
+        const PhotonMap map =
+            build_photon_map(baked.scene, baked.caster, baked.photons, {.photons = count + 1, .radius = 0.1f});
         ASSERT_EQ(map.stored_photons, count);
         const Resident resident(device, baked.scene, map, bvh);
         Renderer renderer(device, resident, 12, 9);

@@ -159,8 +159,10 @@ Scene load(const Room& room) {
 Baked::Baked(const Room& room, uint64_t photon_count, uint64_t seed, bool direct_in_photons)
     : scene(load(room)),
       caster(scene),
-      photons(shoot_photons(scene, caster, {photon_count, seed, direct_in_photons})),
-      map(build_photon_map(scene, caster, photons, {photon_count, 0, 60, seed, direct_in_photons})) {}
+      photons(shoot_photons(scene, caster,
+                            {.photons = photon_count, .seed = seed, .direct_in_photons = direct_in_photons})),
+      map(build_photon_map(scene, caster, photons,
+                           {.photons = photon_count, .seed = seed, .direct_in_photons = direct_in_photons})) {}
 
 Readings read(const Baked& baked, const Room& room, uint mode) {
     const Bvh bvh = build_bvh(baked.scene);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "file/map_file.h"
+#include "maps/bake.h"
 #include "maps/build.h"
 #include "photons/shoot.h"
 #include "trace/build_bvh.h"
@@ -30,9 +31,7 @@ BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesy
     const std::filesystem::path file = folder / "benchmark.pmap";
     cost.hierarchy = cost_of([&] { caster = std::make_unique<RayCaster>(scene); });
     const double before_mb = reset_peak_memory();
-    cost.trace = cost_of([&] {
-        photons = shoot_photons(scene, *caster, {settings.photons, settings.seed, settings.direct_in_photons});
-    });
+    cost.trace = cost_of([&] { photons = shoot_photons(scene, *caster, shoot_settings(settings)); });
     cost.maps = cost_of([&] { map = build_photon_map(scene, *caster, photons, settings); });
     cost.write = cost_of([&] { save_photon_map(file, map); });
     cost.peak_memory_mb = peak_memory_mb();

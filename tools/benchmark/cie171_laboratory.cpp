@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "maps/build.h"
+#include "maps/bake.h"
 #include "measure/grid.h"
-#include "photons/shoot.h"
 
 namespace lw {
 
@@ -26,12 +25,9 @@ Sensor facing(vec3 position, vec3 normal, Response response) { return {position,
 
 Survey Laboratory::measure(const Scene& scene, std::vector<SensorSet> sets) const {
     const RayCaster caster(scene);
-    BakeSettings settings;
-    settings.photons = photons_;
-    const Photons photons = shoot_photons(scene, caster, {photons_, settings.seed});
     SurveySettings survey;
     survey.ray_error = 0.008;
-    return make_survey(scene, caster, build_photon_map(scene, caster, photons, settings), std::move(sets),
+    return make_survey(scene, caster, bake(scene, caster, {.photons = photons_}), std::move(sets),
                        {{"all", std::vector<vec3>(scene.lights.size(), vec3(1))}}, survey);
 }
 

@@ -1,4 +1,5 @@
-// Figure 6 of the paper: time of the k nearest photons against photon count, four structures, one thread.
+// Figure 6 of the paper (Graglia, Sequeira, Mavromatis: Real-Time Walkthrough Rendering, 2012): time of the k nearest
+// photons against photon count, four structures, one thread.
 #include <cmath>
 
 #include "base/error.h"

@@ -1,4 +1,5 @@
-// Table 1 of the paper: 100,000 triangles, 4,000,000 photons, 500x500; global 3D kd-tree against the maps of triangles.
+// Table 1 of the paper (Graglia, Sequeira, Mavromatis: Real-Time Walkthrough Rendering, 2012): 100,000 triangles,
+// 4,000,000 photons, 500x500; global 3D kd-tree against the maps of triangles.
 #include "accuracy.h"
 #include "base/parallel.h"
 #include "rooms.h"
