@@ -1,5 +1,5 @@
-// Bakes a map while the user already walks: a preview with few photons first, then the full map, which is saved beside
-// the scene. Runs on a thread of its own; results are taken when they are ready.
+// Bakes a map while the user already walks: first a preview with few photons, then the full map, which is saved. Runs
+// on a thread of its own; the caller polls for results.
 #pragma once
 #include <thread>
 
@@ -24,11 +24,11 @@ class Baking {
     Baking(const Baking&) = delete;
     Baking& operator=(const Baking&) = delete;
 
-    /// A finished map, once each: the preview, then the full one.
+    /// Returns each finished map once: the preview, then the full one. Nothing when there is no new map.
     std::optional<PhotonMap> take();
-    /// What runs at the moment, with 0 to 1 of the whole; none when all is done.
+    /// The name of the current step and how much of it is done, 0 to 1; nothing when all is done.
     std::optional<ProgressBoard::State> progress() const;
-    /// What went wrong since the last call ("" if nothing): a bake that failed, or a map that could not be saved.
+    /// The error since the last call, or "": a bake failed, or the map could not be saved.
     std::string take_message();
 
   private:

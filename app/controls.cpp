@@ -19,7 +19,7 @@ constexpr float stick_radians_per_second = 2.4f;
 constexpr float dead_zone = 0.15f;
 constexpr float dimmer_step = 0.05f;
 
-/// Nothing around the middle, where sticks rest badly, then linear to 1.
+/// The position of a stick's axis: 0 near the middle, where sticks do not rest exactly, then linear to -1 and 1.
 float stick(const Gamepad& pad, int axis) {
     const float value = std::clamp(pad.axes[size_t(axis)], -1.0f, 1.0f), beyond = std::abs(value) - dead_zone;
     return beyond > 0 ? std::copysign(beyond / (1 - dead_zone), value) : 0;
@@ -56,7 +56,7 @@ void dim_selected(Session& s, float by) {
     dimmer = std::clamp(dimmer + by, 0.0f, 2.0f);
 }
 
-/// The next camera or bookmark, or the one before.
+/// Flies to the next camera or bookmark (`by` = 1) or the one before (-1).
 void change_place(Session& s, int by) {
     const auto count = int(s.world.scene.cameras.size() + s.bookmarks.size());
     s.place = (s.place + by + count) % count;

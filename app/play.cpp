@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct FrameTimes {
-    double seconds;        // of the path
+    double seconds;        // time in the path
     RendererTimes passes;  // of all samples
     RendererTimes first;   // of the first
     double all_ms;         // from the first command recorded to the last one done
@@ -37,7 +37,7 @@ Rgb8Image read_screen(const Device& device, const ProgressiveRenderer& renderer,
     return image;
 }
 
-/// One frame, all its samples, made and waited for.
+/// Makes one frame with all its samples and waits for it.
 FrameTimes make_frame_of(const Device& device, ProgressiveRenderer& renderer, const FrameRequest& request,
                          const DisplaySettings& display) {
     FrameTimes times{};
@@ -49,7 +49,7 @@ FrameTimes make_frame_of(const Device& device, ProgressiveRenderer& renderer, co
         times.passes.visibility_ms += pass.visibility_ms;
         times.passes.gather_ms += pass.gather_ms;
         times.passes.view_ms += pass.view_ms;
-        times.passes.divisor = pass.divisor;  // of the last: the picture that is shown
+        times.passes.divisor = pass.divisor;  // of the last sample, whose picture is shown
         if (i == 0) times.first = pass;
     }
     times.all_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();

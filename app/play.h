@@ -13,14 +13,13 @@ struct PlaySettings {
     std::string ambiance;
     std::vector<std::string> photometry;  // "LAMP=FILE", beside those of SCENE.ambiances.json
     GatherSettings gather;
-    std::optional<float> exposure_ev;  // EV100; none: follows the picture
+    std::optional<float> exposure_ev;  // EV100; nothing: adapts to the picture
     uint samples = 1;                  // views averaged per frame
-    uint divisor = 1;                  // of the picture's sides; 0: as the window does in motion
+    uint divisor = 1;                  // divides width and height; 0: chosen from the frame times, as in the window
 };
 
-/// Renders every frame of the path, one sample each unless `samples` says otherwise, and prints the rate. Frames are
-/// timed one after the other, reading back and writing left out. Throws Error naming the path, the map or the file that
-/// fails.
+/// Renders every frame of the path with `samples` samples and prints the rate. Frames are made one after the other; the
+/// times leave out reading back and writing. Throws Error naming the path, map or file that fails.
 void play(const PlaySettings& settings);
 
 }  // namespace lw

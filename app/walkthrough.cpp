@@ -23,7 +23,7 @@ void refuse_validation_messages(const Device& device) {
         throw Error("Vulkan validation: " + std::to_string(messages.size()) + " messages, first: " + messages[0]);
 }
 
-/// Takes a finished map, and tells what went wrong.
+/// Takes a finished map from the bake, if there is one, and shows its errors to the user.
 void follow_baking(Baking& baking, Session& session, SharedMap& map, Viewer& viewer) {
     if (std::optional<PhotonMap> ready = baking.take()) {
         map = std::make_shared<const PhotonMap>(std::move(*ready));
@@ -34,7 +34,7 @@ void follow_baking(Baking& baking, Session& session, SharedMap& map, Viewer& vie
     if (!message.empty()) tell(session, message, 10);
 }
 
-/// Reads calculation grids from the map, and tells what went wrong.
+/// Lets the reader go on with calculation grids, and shows its errors to the user.
 void follow_fields(FieldReader& reader, Session& session, const SharedMap& map) {
     try {
         if (!reader.follow(session.fields, map)) return;
@@ -45,7 +45,7 @@ void follow_fields(FieldReader& reader, Session& session, const SharedMap& map) 
     }
 }
 
-/// The work that goes on behind the window.
+/// The map, and the threads that bake it and read grids from it while the window is open.
 struct Work {
     SharedMap map;
     std::unique_ptr<Baking> baking;
@@ -57,7 +57,7 @@ struct Work {
     }
 };
 
-/// Runs on one device until the window closes or the scene is to be loaded anew.
+/// Shows frames on one device until the window closes or the scene must be loaded again.
 void run(Window& window, const WalkthroughSettings& settings, Session& session, Work& work) {
     Viewer viewer(window, session, settings.device, settings.vsync);
     if (work.map) viewer.set_map(work.map);
@@ -69,7 +69,7 @@ void run(Window& window, const WalkthroughSettings& settings, Session& session, 
     refuse_validation_messages(viewer.device());
 }
 
-/// Runs until the window closes or the scene is to be loaded anew; on a new device when one is lost.
+/// Shows frames until the window closes or the scene must be loaded again. Starts a new device when one is lost.
 void run_on_devices(Window& window, const WalkthroughSettings& settings, Session& session, Work& work) {
     double lost = -1e9;
     while (!window.closes() && !session.reload) {
@@ -108,8 +108,8 @@ LampPresets presets_beside(const std::filesystem::path& scene) {
     }
 }
 
-/// The scene with the photometric files of its presets; without them, which is told, when something is wrong with
-/// these.
+/// Loads the scene with the photometric files of its presets. When one of them is wrong, the user is told and the scene
+/// is loaded without them.
 std::unique_ptr<World> load_world(const WalkthroughSettings& settings, const LampPresets& presets) {
     try {
         return std::make_unique<World>(settings.scene, presets, settings.photometry);
@@ -121,7 +121,7 @@ std::unique_ptr<World> load_world(const WalkthroughSettings& settings, const Lam
     }
 }
 
-/// The map beside the scene, or one that is baked while the user walks.
+/// Loads the map beside the scene, or starts to bake one.
 void find_map(const WalkthroughSettings& settings, Session& session, Work& work) {
     const World& world = session.world;
     std::string reason;
@@ -132,7 +132,7 @@ void find_map(const WalkthroughSettings& settings, Session& session, Work& work)
         std::make_unique<Baking>(world.scene, world.caster, Baking::Settings{100'000, settings.photons, settings.map});
 }
 
-/// Walks until the window closes or the scene is to be loaded anew.
+/// Walks in one loaded scene until the window closes or the scene must be loaded again.
 void walk_in_world(Window& window, const WalkthroughSettings& settings, Session& session) {
     Work work{nullptr, nullptr, {session.world.scene, session.world.caster}};
     find_map(settings, session, work);

@@ -13,15 +13,15 @@ class FieldReader {
   public:
     /// Scene and caster must outlive it.
     FieldReader(const Scene& scene, const RayCaster& caster) : scene_(scene), caster_(caster) {}
-    /// Gives up what is being read.
+    /// Cancels what is being read and waits for the thread.
     ~FieldReader();
     FieldReader(const FieldReader&) = delete;
     FieldReader& operator=(const FieldReader&) = delete;
 
-    /// Hands finished readings to their field and begins with the next one that `map` has not been read for. True when
-    /// readings have come in. Throws Error when the reading failed.
+    /// Gives finished readings to their field and starts to read the next field that has no readings from `map`.
+    /// Returns true when readings have come in. Throws Error when reading failed.
     bool follow(Fields& fields, const std::shared_ptr<const PhotonMap>& map);
-    /// What is read, with 0 to 1 of it; none when nothing is.
+    /// The name of the field that is read and how much of it is done, 0 to 1; nothing when none is read.
     std::optional<ProgressBoard::State> progress() const;
 
   private:

@@ -27,7 +27,7 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
-/// What the picture shows at a pixel.
+/// The point that a picture of `size` pixels shows at `pixel`, if any.
 std::optional<Hit> hit_at(const Session& s, vec2 pixel, vec2 size) {
     const Camera camera = camera_of(s.walker, s.yfov, s.near);
     const CameraRay ray = camera_ray(camera, pixel.x, pixel.y, int(size.x), int(size.y));

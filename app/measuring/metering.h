@@ -4,25 +4,26 @@
 
 namespace lw {
 
-/// Measures again what lies under the crosshair and, when `all`, the pins.
+/// Measures the point under the crosshair again and, with `all`, the pins.
 void measure_again(Session& session, const PhotonMap& map, bool all);
 
-/// Measures and pins what the picture shows at a pixel.
+/// Measures the point that the picture (`size` pixels) shows at `pixel`, and keeps it as a pin.
 void pin_at(Session& session, const PhotonMap& map, vec2 pixel, vec2 size);
 
-/// The pins as a table beside the other outputs; tells how it went.
+/// Writes the pins as a CSV file into the output folder; tells the user its name or the error.
 void save_pins(Session& session);
 
-/// Begins to choose the corners of a calculation grid, or gives up.
+/// Starts the choice of a grid's corners by clicks, or ends it.
 void toggle_field_choice(Session& session);
 
-/// Takes what the picture shows at a pixel as the next corner; the second one makes the grid.
+/// Takes the point that the picture (`size` pixels) shows at `pixel` as the next corner. The second corner adds the
+/// grid.
 void choose_corner(Session& session, vec2 pixel, vec2 size);
 
-/// Adds the grid of the panel's line; tells what is wrong with it.
+/// Adds the grid written in the panel's input line, or tells the user what is wrong with it.
 void add_written_field(Session& session);
 
-/// The grids as tables of lumenwalk-measure; tells how it went.
+/// Writes the grids as the CSV files that lumenwalk-measure writes; tells the user their names or the error.
 void save_fields(Session& session);
 
 }  // namespace lw

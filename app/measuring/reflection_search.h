@@ -1,4 +1,4 @@
-// Bright reflections of lamps in the present view, looked for on a thread of its own once the view stands still.
+// Looks for bright reflections of lamps in the current view, on a thread of its own, once the view stands still.
 #pragma once
 #include <atomic>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace lw {
 
-/// What was looked for.
+/// All that the reflections of a view depend on.
 struct ReflectionView {
     vec3 position{0};
     mat3 rotation{1};
@@ -23,13 +23,13 @@ class ReflectionSearch {
   public:
     /// Scene and caster must outlive it.
     ReflectionSearch(const Scene& scene, const RayCaster& caster) : scene_(scene), caster_(caster) {}
-    /// Waits for a search that runs.
+    /// Waits for a running search.
     ~ReflectionSearch();
     ReflectionSearch(const ReflectionSearch&) = delete;
     ReflectionSearch& operator=(const ReflectionSearch&) = delete;
 
-    /// What was found in this very view, once it is known; begins to look when it has stood still for a moment before
-    /// `now`, in seconds.
+    /// The report on this view, or null while it is not known. Starts a search when the view has not changed for a
+    /// moment; `now`: time in seconds.
     const ReflectionReport* report(const ReflectionView& view, double now);
 
   private:

@@ -9,8 +9,8 @@
 namespace lw {
 namespace {
 
-constexpr float min_pixels = 26;        // of a cell's width, to write its value
-constexpr float hidden_within = 0.01f;  // m before a point on a surface
+constexpr float min_pixels = 26;        // least width of a cell in which its value is written
+constexpr float hidden_within = 0.01f;  // m; a surface this close to a sensor does not hide it
 
 vec2 display() { return {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y}; }
 
@@ -61,7 +61,7 @@ void draw_cell(const Session& s, const Field& field, size_t i) {
     list->AddText(place, field.values[i].doubt.empty() ? IM_COL32_WHITE : IM_COL32(255, 150, 140, 255), text);
 }
 
-/// The sums under the corner that is lowest in the picture, so that they hide none of the points.
+/// Writes the statistics under the corner that is lowest in the picture, where they hide no point.
 void draw_sums(const Session& s, const Field& field) {
     const GridShape& grid = field.set.grid;
     const vec3 across = float(grid.columns) * grid.across, along = float(grid.rows) * grid.along;

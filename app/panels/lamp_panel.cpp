@@ -36,7 +36,7 @@ std::string power_of(const Session& s, size_t i) {
     return power_text(s.world.scene.lights[i], lamp.on ? lamp.dimmer : 0, flux);
 }
 
-/// The right button on a lamp: into which groups it belongs.
+/// The menu of the right mouse button on a lamp: the groups that it belongs to.
 void draw_group_menu(Session& s, const std::string& lamp) {
     if (!ImGui::BeginPopupContextItem("##groups")) return;
     auto& groups = s.lighting.presets.groups;
@@ -81,7 +81,7 @@ void draw_lamp(Session& s, size_t i) {
     ImGui::PopID();
 }
 
-/// The lamps of a group under one head that dims and switches them together.
+/// The lamps of a group under a heading with a dimmer and a switch for all of them. `by_hand`: the user made the group.
 void draw_group(Session& s, const std::string& name, const std::vector<size_t>& lamps, bool by_hand) {
     Lighting& l = s.lighting;
     ImGui::PushID(name.c_str());
@@ -137,7 +137,7 @@ void choose_ambiance(Session& s, const std::string& name, const Ambiance& ambian
 
 void draw_ambiances(Session& s) {
     Lighting& l = s.lighting;
-    static std::string new_name;  // the text in the field, of no meaning to the session
+    static std::string new_name;  // the text in the input field
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##ambiance", l.current.empty() ? "ambiance..." : l.current.c_str())) {
         if (ImGui::Selectable("as in the file")) choose_ambiance(s, "as in the file", {});

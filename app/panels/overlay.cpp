@@ -11,7 +11,7 @@
 namespace lw {
 namespace {
 
-/// Dark, quiet and opaque enough to be read over a bright room.
+/// Sets dark colours, opaque enough to be read over a bright room, and sizes for this scale.
 void set_look(float scale) {
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
@@ -52,7 +52,7 @@ Overlay::Overlay(const Window& window, const Device& device, const Swapchain& sw
         device.handle().createDescriptorPoolUnique({vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 8, images});
     make_render_pass(swapchain.format());
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // nothing is written beside the user's files
+    ImGui::GetIO().IniFilename = nullptr;  // ImGui writes no file of its own
     set_look(window.scale());
     ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
     ImGui_ImplVulkan_InitInfo info{};
@@ -74,7 +74,7 @@ Overlay::Overlay(const Window& window, const Device& device, const Swapchain& sw
 Overlay::~Overlay() {
     try {
         device_->handle().waitIdle();
-    } catch (const vk::SystemError&) {  // a lost device has nothing left to wait for
+    } catch (const vk::SystemError&) {  // the device is lost: there is nothing to wait for
     }
     ImGui_ImplVulkan_Shutdown();
     ImGui_ImplGlfw_Shutdown();

@@ -1,4 +1,4 @@
-// Dear ImGui over the window's image: its context, style and Vulkan backend. What is drawn is up to the panels.
+// Dear ImGui over the window's image: its context, style and Vulkan backend. The panels decide what is drawn.
 #pragma once
 #include "app/window/presenter.h"
 
@@ -12,14 +12,14 @@ class Overlay {
     Overlay(const Overlay&) = delete;
     Overlay& operator=(const Overlay&) = delete;
 
-    /// After the window's images have changed.
+    /// Must be called after the window's images have changed.
     void attach(const Swapchain& swapchain);
-    /// Everything drawn with ImGui after this belongs to the frame. Without `mouse` it leaves the mouse alone.
+    /// Starts a frame of ImGui. With `mouse` = false ImGui ignores the mouse.
     void begin(bool mouse) const;
     /// Records what was drawn since begin() over image `image` in layout eColorAttachmentOptimal.
     void record(vk::CommandBuffer commands, uint32_t image) const;
     bool wants_mouse() const;
-    bool wants_keyboard() const;  // a text field is being edited
+    bool wants_keyboard() const;  // true while a text field is edited
 
   private:
     void make_render_pass(vk::Format format);

@@ -49,10 +49,10 @@ void adapt_to(Viewing& v, const std::vector<ReadbackPixel>& readback, float seco
         luminances.push_back(g.luminance);
         if (g.seen > 0) values.push_back(g.value);
     }
-    if (values.empty()) return;  // nothing has been looked at yet
+    if (values.empty()) return;  // no picture has been read back yet
     if (v.auto_exposure) {
         const float wanted = auto_exposure_ev(std::move(luminances)), change = wanted - v.exposure_ev;
-        const bool jumps = std::abs(change) > 4;  // out of the dark, or the first picture
+        const bool jumps = std::abs(change) > 4;  // after darkness, or in the first picture
         v.exposure_ev += jumps ? change : change * (1 - std::exp(-adapts_per_second * seconds));
     }
     if (!v.auto_range) return;
@@ -75,7 +75,7 @@ uint DynamicResolution::next(uint wanted, const RendererTimes& last, bool still)
         fixed_ms_ = last.visibility_ms + last.view_ms;
         light_ms_ = last.gather_ms * last.divisor * last.divisor;
     }
-    // A frame that is a little late is no reason for larger pixels, least of all while moving.
+    // A frame that takes a little too long does not make pixels larger, least of all in motion.
     const double max_ms = (still ? 1.1 : 1.25) * wanted_frame_ms;
     uint needed = 1;
     while (needed < max_divisor && fixed_ms_ + light_ms_ / (needed * needed) > max_ms) ++needed;

@@ -17,7 +17,8 @@ vk::Extent2D divided(vk::Extent2D size, uint divisor) {
     return {std::max(1u, size.width / divisor), std::max(1u, size.height / divisor)};
 }
 
-/// Sample `index` of a sum that the view divides: the first through pixel centres, the next ones jittered.
+/// The push constants of sample `index` of a sum: the first through pixel centres, the next ones jittered. Each has
+/// weight 1; the view pass divides by their number.
 Frame frame_of_sample(const Camera& camera, vk::Extent2D size, uint index) {
     Frame frame = make_frame(camera, size, index, index == 0 ? 1 : 2);
     frame.sample_weight = 1;
@@ -113,7 +114,8 @@ void ProgressiveRenderer::record(vk::CommandBuffer commands, const FrameRequest&
     timed_[slot] = std::max(1u, live_->size().width / picture_size_.width);
 }
 
-/// Of the next sample. The first sample of a view comes whole, of others as many rows as take request.max_ms.
+/// The rows of the next sample that a frame adds: all for the first sample of a view, else as many as take
+/// request.max_ms.
 Rows ProgressiveRenderer::next_rows(const FrameRequest& request) const {
     const uint height = picture_size_.height;
     if (!(request.max_ms > 0) || samples_ == 0 || picture_size_ != live_->size()) return {0, height};

@@ -1,5 +1,5 @@
-// One baked scene on the device, and the picture of it at one size: lamps A and B, moving and still, one frame at a
-// time.
+// A baked scene on the device and its picture at one size, frame by frame. While the view is still, samples add up. A
+// second picture B may show other powers of the lamps.
 #pragma once
 #include <optional>
 
@@ -7,7 +7,7 @@
 
 namespace lw {
 
-/// How a frame is to look.
+/// How a picture is shown: views, exposure, ranges.
 struct DisplaySettings {
     ViewKind kind;
     float exposure_ev = 7;
@@ -18,22 +18,22 @@ struct DisplaySettings {
     bool bgr = false;    // byte order of the screen
 };
 
-/// What a frame is to viewer.
+/// What a picture shows: camera, lamps, quality. A change starts a new picture.
 struct FrameRequest {
     Camera camera;
-    std::vector<vec3> factors_a, factors_b;  // factors; b empty: no comparison
+    std::vector<vec3> factors_a, factors_b;  // RGB factor per lamp of pictures A and B; b empty: no B
     GatherSettings gather;
-    uint max_samples = 1;  // while nothing changes
-    uint divisor = 1;      // of the picture's width and height while things change
-    bool sharpens = true;  // to all pixels once nothing changes
-    double max_ms = 0;     // that one frame adds to a still picture, in bands of rows; 0: whole samples
+    uint max_samples = 1;  // samples that add up while nothing changes
+    uint divisor = 1;      // divides the picture's width and height while things change
+    bool sharpens = true;  // full resolution once nothing changes
+    double max_ms = 0;     // most gather time of a frame of a still picture, in bands of rows; 0: whole samples
 };
 
 /// Milliseconds of the passes of a frame, on the device's clock.
 struct RendererTimes {
     double visibility_ms = 0, gather_ms = 0, view_ms = 0;
-    uint divisor = 1;  // of the picture's sides
-    uint rows = 0;     // of a later sample of a still picture that were added; 0: the first sample, or nothing
+    uint divisor = 1;  // of the picture's width and height
+    uint rows = 0;     // rows of a later sample that were added to a still picture; 0: the first sample, or none
     bool drew = false;
     double sum() const { return visibility_ms + gather_ms + view_ms; }
 };
@@ -48,35 +48,37 @@ class ProgressiveRenderer {
     /// Throws Error when the size is beyond the device.
     void resize(vk::Extent2D size);
 
-    /// Records a frame; samples of the same request add up.
+    /// Records a frame into the commands; `slot`, 0 or 1, is that of the frame in flight. Samples of equal requests add
+    /// up.
     void record(vk::CommandBuffer commands, const FrameRequest& request, const DisplaySettings& display, uint slot);
-    /// The next frame starts anew, whatever it shows.
+    /// Makes the next frame start a new picture.
     void forget() { drawn_.reset(); }
-    /// True when the next frame of this request adds to the picture instead of starting anew.
+    /// True when a frame of this request would add to the picture instead of starting a new one.
     bool shows(const FrameRequest& request, uint view) const;
     const Buffer& screen() const { return live_->screen(); }
     uint samples() const { return samples_; }
-    /// True when more frames of the same request would change nothing.
+    /// True when more frames of this request would change nothing.
     bool is_finished(const FrameRequest& request) const;
-    /// Values of the last frame of a slot, whose commands must have finished; empty when it showed another view.
+    /// The readback of the last frame of a slot, whose commands must have finished; empty when it showed another view
+    /// than `view`.
     std::vector<ReadbackPixel> readback(uint slot, uint view) const;
-    /// Values of an inspecting view of what A shows, made and waited for; the slot's next frame must follow. Not while
-    /// B is shown.
+    /// Renders the inspecting view `view` of picture A, waits for it and returns its values. Uses the slot, so its next
+    /// frame must be recorded after. Not allowed while B is shown.
     std::vector<ReadbackPixel> inspect(const FrameRequest& request, uint view, uint slot);
     /// Times of the last frame of a slot; its commands must have finished.
     RendererTimes times(uint slot) const;
-    /// Values of what A shows (Rendering::image); waits for the device.
+    /// The values of picture A (channels as Rendering::image); waits for the device.
     Image read_values() const {
         return live_->read_values(drawn_ ? drawn_->request.camera : Camera(), picture_size_, std::max(samples_, 1u),
                                   fresh_rows_);
     }
 
   private:
-    struct Drawn {  // what the samples so far show
+    struct Drawn {  // what the samples added so far show
         FrameRequest request;
         uint inspected_view = view_shaded;
     };
-    struct Band {       // what a slot's frame added
+    struct Band {       // what the last frame of a slot added
         uint rows = 0;  // as RendererTimes
         uint view = 0;
         bool drew = false;
@@ -91,11 +93,11 @@ class ProgressiveRenderer {
     std::optional<LiveView> live_;
     std::optional<Drawn> drawn_;
     vk::Extent2D picture_size_;
-    uint samples_ = 0;       // whole ones
-    uint fresh_rows_ = 0;    // have one sample more
-    uint rows_at_once_ = 0;  // in the last band; 0: none yet
-    double ms_per_row_ = 0;  // of the gather of this still picture; 0: not known
-    uint view_ = 0;          // counts pictures that begin anew
+    uint samples_ = 0;       // complete samples in the picture
+    uint fresh_rows_ = 0;    // rows, from the top, that have one sample more
+    uint rows_at_once_ = 0;  // rows in the last band; 0: none yet
+    double ms_per_row_ = 0;  // gather time per row of this still picture; 0: not known
+    uint view_ = 0;          // number of pictures started so far
     std::array<Timestamps, 2> timestamps_;
     std::array<uint, 2> views_{};  // of each slot's frame
     std::array<uint, 2> timed_{};  // divisor of each slot's frame, 0: none yet

@@ -18,8 +18,8 @@
 namespace lw {
 namespace {
 
-constexpr double idle_seconds = 0.1;             // between frames when nothing changes
-constexpr double sharpens_after_seconds = 0.25;  // a pause between two steps is still motion
+constexpr double idle_seconds = 0.1;             // wait between frames when nothing changes
+constexpr double sharpens_after_seconds = 0.25;  // a shorter pause between two steps still counts as motion
 constexpr double minimised_seconds = 0.2;
 
 DeviceSettings with_window(DeviceSettings settings) {
@@ -60,10 +60,10 @@ void Viewer::frame(const BakingState& baking) {
     const Events events = window_.poll(window_.size().width == 0 ? minimised_seconds : idle ? idle_seconds : 0);
     const double now = Window::now();
     seconds_ = float(now - last_);
-    const float seconds = idle ? std::min(seconds_, 0.05f) : seconds_;  // a step after a rest is no leap
+    const float seconds = idle ? std::min(seconds_, 0.05f) : seconds_;  // no leap after a rest
     last_ = now;
     const std::optional<OpenFrame> open = presenter_.begin();
-    if (open) begin_panels();  // before input is taken: ImGui then knows which of it the panels capture
+    if (open) begin_panels();  // before input is taken: the panels say which of it they use
     take_input(events, seconds);
     if (!open) return;
     present(*open, baking, now);
@@ -79,7 +79,7 @@ void Viewer::take_input(const Events& events, float seconds) {
     measure();
 }
 
-/// Measures again when the view, the lamps or the map have changed.
+/// Measures probe and pins again when the view, the lamps or the map have changed.
 void Viewer::measure() {
     if (!renderer_) return;
     const Camera camera = camera_of(session_.walker, session_.yfov, session_.near);
@@ -126,7 +126,7 @@ void Viewer::present(const OpenFrame& open, const BakingState& baking, double no
     if (request != PictureRequest::none) keep_screenshot();
 }
 
-/// Takes times, exposure and range of false colours from the readback of the frame before the last.
+/// Takes times, exposure and range of false colours from the last finished frame of this slot.
 void Viewer::follow_picture(uint slot) {
     renderer_->resize(presenter_.swapchain().size());
     session_.statistics.times = renderer_->times(slot);
@@ -147,7 +147,7 @@ void Viewer::record_frame(const OpenFrame& open) {
                       open.slot);
 }
 
-/// Estimates the error of the picture once it is finished, and forgets it when the picture changes.
+/// Estimates the error of a still picture, once for each.
 void Viewer::estimate_error(const FrameRequest& request, uint slot) {
     std::optional<vec2>& error = session_.statistics.error;
     if (!renderer_->is_finished(request))

@@ -1,5 +1,5 @@
-// Everything of one Vulkan device: the window's images, the scene on the device, the panels over it. Made anew when the
-// device is lost.
+// All that lives on one Vulkan device: the window's images, the scene with its map, the panels. A new one is made when
+// the device is lost.
 #pragma once
 #include <memory>
 
@@ -21,9 +21,10 @@ class Viewer {
     Viewer(Window& window, Session& session, const DeviceSettings& device, bool vsync);
 
     const Device& device() const { return device_; }
-    /// Takes up a map; what was measured in the one before is measured again.
+    /// Shows this map from now on, and measures again what was measured in the one before.
     void set_map(const SharedMap& map);
-    /// Handles what has come in, moves on and shows a frame: what the user does is in the picture that is made next.
+    /// Handles input, moves the walker and shows a frame. Input that has come before is in this frame. `baking`:
+    /// progress of a running bake, for the notice.
     void frame(const BakingState& baking);
 
   private:
@@ -43,13 +44,13 @@ class Viewer {
     Presenter presenter_;
     Overlay overlay_;
     std::unique_ptr<ProgressiveRenderer> renderer_;
-    uint32_t generation_ = 0;  // of the window's images that the overlay draws on
-    double changed_ = 0;       // when the picture last began anew
+    uint32_t generation_ = 0;  // Presenter::generation() of the images that the overlay draws on
+    double changed_ = 0;       // time at which the picture last started anew, s
     double last_, shown_;
     float seconds_ = 0;
     DynamicResolution resolution_;
     ReflectionSearch reflections_;
-    std::vector<vec3> measured_;  // factors of the lamps, place and view of the last measurement
+    std::vector<vec3> measured_;  // factors of the lamps, eye and rotation at the last measurement
     vec3 measured_eye_{0};
     mat3 measured_rotation_{1};
 };

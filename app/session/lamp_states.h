@@ -1,5 +1,4 @@
-// The state of every lamp as the user set it: dimmers, switches, solo, filters; and the factors that follow from it, by
-// which the intensity of each lamp is multiplied per channel.
+// The state of every lamp as the user set it: dimmers, switches, solo, filters; and the factors that follow from it.
 #pragma once
 #include "scene/ambiance.h"
 
@@ -8,22 +7,22 @@ namespace lw {
 struct LampState {
     float dimmer = 1;  // 0 to 2
     bool on = true;
-    bool solo = false;  // any: only these are lit
+    bool solo = false;  // when any lamp has this, only those that have it are lit
     vec3 color{1};      // filter, linear Rec.709
 };
 
 using LampStates = std::vector<LampState>;  // one per lamp of the scene
 
-/// dimmer x color of each lamp that is lit, 0 of the others.
+/// The RGB factor of each lamp, by which its power in the file is multiplied.
 std::vector<vec3> factors_of(const LampStates& lamps);
 
-/// The ambiance that these states are, under the names of the lamps; lamps as in the scene file are left out.
+/// The states as an ambiance, by the names of the lamps. Lamps at the power of the file are left out.
 Ambiance ambiance_of(const Scene& scene, const LampStates& lamps);
 
-/// The states after choosing an ambiance; `missing` gets the names of lamps that the scene does not have.
+/// States with the settings of an ambiance. Names of lamps that the scene does not have are appended to `missing`.
 LampStates with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing);
 
-/// Between two sets of factors, t from 0 to 1.
+/// The factors `from` (t = 0) to `to` (t = 1), blended linearly.
 std::vector<vec3> mixed(const std::vector<vec3>& from, const std::vector<vec3>& to, float t);
 
 /// Text of a lamp's power in its own unit at a dimmer: "95.49 cd, 1200 lm", "250 cd/m2, 283 lm", "10000 lx".

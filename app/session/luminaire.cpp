@@ -10,7 +10,8 @@
 namespace lw {
 namespace {
 
-/// Solid angle times share, summed in steps of one degree: lm per candela.
+/// The flux of a lamp for 1 cd in its strongest direction, lm: its relative intensity integrated over the sphere in
+/// steps of one degree.
 float unit_flux_of(const Scene& scene, const Light& light) {
     constexpr int columns = 72;
     double sum = 0;

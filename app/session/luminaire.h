@@ -1,4 +1,4 @@
-// What is known of lamps with a measured light distribution: the table they shine by, and the file it comes from.
+// Data to show about lamps with a measured light distribution: the file it comes from and its flux.
 #pragma once
 #include <map>
 #include <string>
@@ -13,11 +13,11 @@ struct Luminaire {
     float unit_flux = 0;  // lm per candela of the strongest direction
 };
 
-/// Those of a scene that was loaded with these "LAMP=FILE" texts, by lamp.
+/// The luminaires of a scene that was loaded with these "LAMP=FILE" texts, by the index of the lamp.
 std::map<size_t, Luminaire> luminaires_of(const Scene& scene, const std::vector<std::string>& photometry);
 
-/// Share of the strongest intensity at angles from the axis and around it (C), degrees: 1 to 0. The lamp must be a
-/// light_profile.
+/// The intensity of a lamp relative to its strongest, 0 to 1, at `gamma_deg` degrees from its aim and `c_deg` degrees
+/// around it (C). The lamp must be a light_profile.
 float share_of_profile(const Scene& scene, const Light& light, float gamma_deg, float c_deg);
 
 }  // namespace lw

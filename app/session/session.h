@@ -1,5 +1,4 @@
-// All that the user can change, as plain values: where they stand, the lamps, what is shown. Panels and keys write it,
-// the frame reads it.
+// All that the user can change: place, lamps, what is shown and measured. Panels and keys write it, the frame reads it.
 #pragma once
 #include <chrono>
 #include <optional>
@@ -21,13 +20,13 @@ struct Fade {
 
 struct Lighting {
     LampStates lamps;
-    std::optional<Fade> fade;  // from what was lit before to `lamps`
+    std::optional<Fade> fade;  // from the factors before to those of `lamps`
     float fade_seconds = 1;
     int selected = -1;     // lamp
-    int scrolled_to = -1;  // lamp that the panel has scrolled into view
+    int scrolled_to = -1;  // lamp that the panel has last scrolled into view, or -1
     std::string search;
     LampPresets presets;
-    std::string presets_error;  // why the file beside the scene must not be overwritten, or ""
+    std::string presets_error;  // why the file beside the scene could not be read and must not be overwritten, or ""
     std::string current;        // ambiance chosen last
 };
 
@@ -47,12 +46,12 @@ struct Viewing {
     float low = 0, high = 500;
     GatherSettings gather;
     uint max_samples = 256;
-    uint divisor = 0;          // of the resolution while moving; 0: by the time a frame takes
-    bool wants_error = false;  // to be told the estimated error while the view is still
-    bool reflections = false;  // outlines of bright reflections of lamps
+    uint divisor = 0;          // of width and height in motion; 0: chosen from the frame time
+    bool wants_error = false;  // estimate the error of the picture when the view is still
+    bool reflections = false;  // outline bright reflections of lamps
 };
 
-/// A measured place that is kept.
+/// A point that was measured and is kept.
 struct Pin {
     Hit hit;
     vec3 viewer;
@@ -65,10 +64,10 @@ struct Metering {
     std::vector<Pin> pins;
 };
 
-/// What is to be done with the next picture.
+/// What to do with the next picture.
 enum class PictureRequest { none, save, copy };
 
-/// A line told to the user for a few seconds.
+/// A message that the user sees for a few seconds.
 struct Notice {
     std::string text;
     std::chrono::steady_clock::time_point until{};
@@ -76,7 +75,7 @@ struct Notice {
 
 struct FrameStatistics {
     RendererTimes times;
-    double frame_ms = 0;   // from one image to the next, averaged
+    double frame_ms = 0;   // time between images, averaged
     uint64_t photons = 0;  // stored in the map
     uint64_t device_bytes = 0;
     uint samples = 0;
@@ -86,7 +85,7 @@ struct FrameStatistics {
 struct Session {
     /// At the first camera, all lamps as in the scene; open_session() adds what is kept beside the scene.
     Session(const World& world, std::filesystem::path output);
-    /// The same session in the same building with other lamps.
+    /// Continues a session in the same building after it was loaded again with other lamps.
     Session(const World& world, const Session& before);
 
     const World& world;
@@ -95,9 +94,9 @@ struct Session {
     Walker walker;
     float yfov, near;
     std::optional<ViewTransition> transition;
-    int place = 0;  // jumped to last
+    int place = 0;  // index of the place flown to last
     std::vector<Bookmark> bookmarks;
-    std::string bookmarks_error;  // as presets_error
+    std::string bookmarks_error;  // why the file of bookmarks must not be overwritten, or ""
     std::optional<Path> recording;
     double recorded_seconds = 0;
     Lighting lighting;
@@ -107,15 +106,15 @@ struct Session {
     Fields fields;
     bool panels = true, keys = false;  // shown
     PictureRequest picture_request = PictureRequest::none;
-    bool reload = false;  // lamps have got other photometric files: the scene is loaded and baked anew
+    bool reload = false;  // lamps have other photometric files now: the scene must be loaded and baked again
     Notice notice;
     FrameStatistics statistics;
 };
 
-/// What the lamps are multiplied by now, crossfade included.
+/// The RGB factors of the lamps at this moment of a crossfade.
 std::vector<vec3> factors_now(const Lighting& lighting);
 
-/// What the next frame is to viewer.
+/// The request and the display settings of the next frame.
 FrameRequest frame_request_of(const Session& session, uint divisor);
 DisplaySettings display_settings_of(const Session& session, bool bgr);
 

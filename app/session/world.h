@@ -1,4 +1,4 @@
-// The building as the walkthrough needs it: the scene, rays through it, what bodies bump into.
+// The building as the walkthrough needs it: the scene, a ray caster, a hierarchy for rays on the GPU, and collisions.
 #pragma once
 #include <map>
 #include <memory>
@@ -19,10 +19,11 @@ struct World {
     RayCaster caster;
     Bvh bvh;
     CollisionMesh collision;
-    std::map<size_t, Luminaire> luminaires;  // of lamps with a light distribution
+    std::map<size_t, Luminaire> luminaires;  // by lamp, for those with a light distribution
 };
 
-/// The map at `path`, or none with the reason ("" when there is just no file): missing, stale or damaged.
+/// Loads the map at `path`. When that fails, returns null and sets `reason`: the map is damaged or of another scene; ""
+/// when there is no file.
 std::shared_ptr<const PhotonMap> try_load_map(const std::filesystem::path& path, const Scene& scene,
                                               std::string& reason);
 

@@ -1,4 +1,4 @@
-// What a body can bump into and stand on: capsules against the triangles of a scene, and rays for the floor.
+// Collisions of a walker: capsules against the triangles of a scene, and rays for the floor.
 #pragma once
 #include <optional>
 
@@ -7,7 +7,7 @@
 
 namespace lw {
 
-/// Upright: spheres of `radius` with centres from `low` to `low` + (0, length, 0).
+/// An upright capsule: all points within `radius` m of the segment from `low` to `low` + (0, length, 0).
 struct Capsule {
     vec3 low;
     float length;
@@ -25,12 +25,13 @@ class CollisionMesh {
     std::optional<float> floor_below(vec3 point) const;
     /// How deep the nearest surface reaches into the capsule, m; 0 when it is free.
     float overlap(const Capsule& capsule) const;
-    /// The horizontal move that frees the capsule, as far as a few steps away from the deepest surface can.
+    /// A horizontal move, m, that frees the capsule: a few steps, each away from the surface that reaches deepest. It
+    /// may not free it in narrow places.
     vec3 push_out(const Capsule& capsule) const;
     const RayCaster& caster() const { return caster_; }
 
   private:
-    /// From the nearest surface point to the capsule's axis, and how deep that point lies.
+    /// Vector from the nearest surface point to the capsule's axis, and how deep that point lies in the capsule, m.
     struct Contact {
         vec3 away{0};
         float depth = 0;

@@ -7,7 +7,7 @@ namespace lw {
 namespace {
 
 constexpr float gravity = 9.81f;           // m/s2
-constexpr float max_step_seconds = 0.25f;  // a hitch does not become a leap
+constexpr float max_step_seconds = 0.25f;  // so that a long frame does not become a leap
 constexpr float eye_settles_per_second = 9.0f;
 constexpr float steepest_look = 1.55f;  // radians
 
@@ -25,13 +25,13 @@ vec3 at_most_unit(vec3 v) {
     return l > 1 ? v / l : v;
 }
 
-/// Spheres of the trunk above what can be stepped over.
+/// The capsule of the trunk, which begins above the highest step.
 Capsule trunk(vec3 feet, const Body& body) {
     const float low = body.step + body.radius, high = std::max(low, body.eye_height - 0.5f * body.radius);
     return {feet + vec3(0, low, 0), high - low, body.radius};
 }
 
-/// The highest floor under the feet that can be stood on, and whether there is one under the middle at all.
+/// The highest floor under the feet that can be stood on, and whether there is any floor under their middle.
 struct Ground {
     bool exists = false;
     float height = 0;  // m, of the stored positions
@@ -54,14 +54,14 @@ Ground ground_below(vec3 feet, const Body& body, const CollisionMesh& collision)
     return ground;
 }
 
-/// True when neither the shins, the chest nor the eyes meet a surface on the way.
+/// True when no surface crosses the way of the shins, the chest or the eyes.
 bool passes(vec3 from_feet, vec3 to_feet, const Body& body, const CollisionMesh& collision) {
     for (float height : {body.step * 1.02f, 0.5f * (body.step + body.eye_height), body.eye_height})
         if (!collision.is_free(from_feet + vec3(0, height, 0), to_feet + vec3(0, height, 0))) return false;
     return true;
 }
 
-/// Feet after one short move, or where they were when that way is closed.
+/// The feet after one short move; unchanged when the way is blocked.
 vec3 moved(vec3 feet, vec3 move, const Body& body, const CollisionMesh& collision) {
     const float overlap_before = collision.overlap(trunk(feet, body));
     vec3 to = feet + move;
@@ -80,14 +80,14 @@ vec3 moved(vec3 feet, vec3 move, const Body& body, const CollisionMesh& collisio
     return to;
 }
 
-/// Stands on the floor, or falls towards it.
+/// Puts the walker on the floor, or lets it fall towards it.
 Walker fallen(Walker w, float seconds, const Body& body, const CollisionMesh& collision) {
     const vec3 feet = w.eye - vec3(0, w.height, 0);
     const Ground ground = ground_below(feet, body, collision);
     if (!ground.exists) return w;
     const float drop = feet.y - ground.height;
     if (drop <= body.step) {
-        w.height += drop;  // the eye stays, and settles
+        w.height += drop;  // the eye stays where it is and then follows
         w.fall_speed = 0;
         return w;
     }
@@ -96,7 +96,7 @@ Walker fallen(Walker w, float seconds, const Body& body, const CollisionMesh& co
     return w;
 }
 
-/// Lets the eye follow the floor.
+/// Moves the eye smoothly to its height over the floor.
 Walker settled(Walker w, float seconds, const Body& body, const CollisionMesh& collision) {
     const float change = (body.eye_height - w.height) * (1 - std::exp(-seconds * eye_settles_per_second));
     if (!collision.is_free(w.eye, w.eye + vec3(0, change + std::copysign(0.3f * body.radius, change), 0))) return w;

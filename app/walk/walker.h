@@ -6,7 +6,7 @@
 
 namespace lw {
 
-/// Measures of the walker, m.
+/// Measures of the walker in m, and speeds.
 struct Body {
     float eye_height = 1.65f;
     float radius = 0.22f;
@@ -15,7 +15,7 @@ struct Body {
     float shift_factor = 2.5f;  // with Shift
 };
 
-/// The body and its speed for a scene: a person in a building, smaller in something lower than a storey.
+/// The body for a scene: a person in a building, a smaller body in a scene lower than a storey.
 Body body_for(const Scene& scene);
 
 struct Walker {
@@ -25,7 +25,7 @@ struct Walker {
     bool flying = false;
     float height = 1.65f;   // of the eye above the feet; follows the floor smoothly
     float fall_speed = 0;   // m/s, downwards
-    bool settling = false;  // the height is on its way to that of the body
+    bool settling = false;  // `height` still moves towards that of the body
 };
 
 struct WalkInput {
@@ -34,17 +34,17 @@ struct WalkInput {
     bool fast = false;
 };
 
-/// The walker after `seconds` (at most a quarter of one is simulated).
+/// The state after `seconds`, of which at most 0.25 are simulated.
 Walker walk(const Walker& before, const WalkInput& input, float seconds, const Body& body,
             const CollisionMesh& collision);
 
-/// A walker who sees what the camera sees; flying when no floor is within reach of the feet.
+/// A walker with the view of the camera; flying when there is no floor within reach of the feet.
 Walker walker_at(const Camera& camera, const Body& body, const CollisionMesh& collision);
 
-/// The same place, on the feet when there is a floor below, else flying on.
+/// The walker set on the floor below; still flying when there is none.
 Walker land(Walker walker, const Body& body, const CollisionMesh& collision);
 
-/// What the walker sees.
+/// The camera at the walker's eye.
 Camera camera_of(const Walker& walker, float yfov, float near);
 
 }  // namespace lw

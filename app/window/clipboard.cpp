@@ -19,7 +19,8 @@ namespace {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-/// Runs a program with these bytes as its input. True when it ended well; false when there is no such program, too.
+/// Runs a program with these bytes as its input. Returns true when it ended with status 0, false also when there is no
+/// such program.
 bool run_with_input(std::vector<std::string> arguments, const std::vector<uint8_t>& bytes) {
     const File input(std::tmpfile(), std::fclose);
     if (!input || std::fwrite(bytes.data(), 1, bytes.size(), input.get()) != bytes.size()) return false;
@@ -30,7 +31,7 @@ bool run_with_input(std::vector<std::string> arguments, const std::vector<uint8_
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
-    for (int stream : {STDOUT_FILENO, STDERR_FILENO})  // it lives on after lumenwalk, whose output must end
+    for (int stream : {STDOUT_FILENO, STDERR_FILENO})  // it lives on after lumenwalk, and must not keep its output open
         posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
     pid_t process = 0;
     const int failure = posix_spawnp(&process, argv[0], &actions, nullptr, argv.data(), environ);

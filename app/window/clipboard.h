@@ -1,11 +1,11 @@
-// Pictures on the clipboard. GLFW has none, so that the desktop's own program is asked: wl-copy under Wayland, xclip
-// under X11; either keeps the picture after lumenwalk has ended.
+// Copies pictures to the clipboard. GLFW copies text only, so a program of the desktop does it: wl-copy under Wayland,
+// xclip under X11. Either keeps the picture after lumenwalk has ended.
 #pragma once
 #include "image/rgb8_image.h"
 
 namespace lw {
 
-/// Throws Error saying what to install when neither program is there, or that it refuses.
+/// Copies a picture. Throws Error when the program is missing, saying what to install, or when it fails.
 void copy_to_clipboard(const Rgb8Image& image);
 
 }  // namespace lw

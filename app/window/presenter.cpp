@@ -40,7 +40,7 @@ Presenter::Presenter(const Device& device, const Window& window, bool vsync)
 Presenter::~Presenter() {
     try {
         device_->handle().waitIdle();
-    } catch (const vk::SystemError&) {  // a lost device has nothing left to wait for
+    } catch (const vk::SystemError&) {  // the device is lost: there is nothing to wait for
     }
 }
 

@@ -1,5 +1,5 @@
-// Frames on their way to the window: at most two in flight, so that an input shows in the next image or the one after.
-// Each frame's picture is copied into the window's image, then drawn over.
+// Presents frames in the window. At most two are in flight, so that input shows in the next image or the one after. The
+// picture of a frame is copied into the window's image, then the panels are drawn over it.
 #pragma once
 #include <array>
 #include <functional>
@@ -32,22 +32,23 @@ class Presenter {
     /// Counts the swapchains made so far.
     uint32_t generation() const { return generation_; }
 
-    /// Waits for the slot of two frames ago, then for a free image; makes a new swapchain when the window has changed.
-    /// None while the window has no size.
+    /// Starts a frame: waits for the frame before the last, then for a free image. Makes a new swapchain when the
+    /// window has changed. Returns nothing while the window has no size.
     std::optional<OpenFrame> begin();
-    /// Sends off what is recorded so far and waits until the device has done it; the frame goes on with new commands.
+    /// Submits the commands recorded so far and waits for them; afterwards frame.commands are new ones.
     void flush(OpenFrame& frame);
-    /// Copies `picture` (4-byte pixels of the swapchain's size and order), or black when it is null, into the window's
-    /// image; `draw_over` draws over it in layout eColorAttachmentOptimal; then it is shown.
+    /// Ends a frame: copies `picture` (4-byte pixels, in size and byte order of the swapchain; black when null) into
+    /// the window's image, calls `draw_over` with the image in layout eColorAttachmentOptimal, and shows it. With
+    /// `keep_shown` shown() can return the result.
     void end(const OpenFrame& frame, const Buffer* picture, const std::function<void(vk::CommandBuffer)>& draw_over,
              bool keep_shown = false);
-    /// What the last frame with keep_shown showed; waits for the device.
+    /// The image of the last frame with keep_shown; waits for the device.
     Rgb8Image shown() const;
 
   private:
     struct Slot {
         vk::UniqueCommandPool pool;
-        std::vector<vk::UniqueCommandBuffer> commands;  // freed when the slot comes round
+        std::vector<vk::UniqueCommandBuffer> commands;  // freed when the slot is used again
         vk::UniqueFence done;
         vk::UniqueSemaphore available;
     };

@@ -31,7 +31,7 @@ std::optional<Gamepad> first_gamepad() {
     return std::nullopt;
 }
 
-/// GLFW counts as long as any window lives.
+/// Initialises GLFW for the first window; the last one ends it.
 void start_glfw() {
     glfwInitHint(GLFW_JOYSTICK_HAT_BUTTONS, GLFW_FALSE);
     if (!glfwInit()) throw Error("no display: " + last_glfw_error() + " (--play replays a path without one)");

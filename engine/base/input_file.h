@@ -1,12 +1,12 @@
-// A file to read, and nothing that would be waited for.
+// Opens files for reading. Only regular files are opened, so that no program waits for a pipe or a device.
 #pragma once
 #include <filesystem>
 #include <fstream>
 
 namespace lw {
 
-/// A stream to read the bytes of `path`; a failed one when there is no such file or when it is something else (a
-/// folder, a device, a pipe that nobody writes to).
+/// Opens `path` for reading in binary mode, with the flags `more` added. The stream is in the failed state when there
+/// is no such file, or when it is a folder, a device or a pipe.
 inline std::ifstream open_input(const std::filesystem::path& path, std::ios::openmode more = {}) {
     std::error_code failure;
     std::ifstream stream;

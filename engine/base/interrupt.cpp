@@ -13,7 +13,8 @@
 namespace lw {
 namespace {
 
-/// Plain memory, which a signal handler may read at any moment: `used` is set last and cleared first.
+/// An entry of the list of half-written files. It holds no pointers, because a signal handler may read it at any
+/// moment: `used` is set after the path is complete.
 struct HalfWritten {
     std::atomic<bool> used{false};
     std::array<char, 4096> path{};
@@ -23,7 +24,7 @@ std::mutex registering;
 
 void say(const char* text) { [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, text, std::strlen(text)); }
 
-/// Only calls that POSIX allows in a handler.
+/// The signal handler. It calls only functions that POSIX allows in one.
 void remove_and_end(int signal) {
     for (const HalfWritten& file : half_written)
         if (file.used) unlink(file.path.data());

@@ -8,10 +8,11 @@ namespace lw {
 /// process by the signal: the shell sees 130, 143 or 129. A signal that is ignored (nohup) stays so.
 void watch_for_interrupt();
 
-/// The file is half written: it goes when a watched signal arrives. At most 16 at a time; the rest stay.
+/// Registers a half-written file, to be removed when a watched signal arrives. Up to 16 files can be registered at a
+/// time; further ones are ignored and would stay on disk.
 void remove_on_interrupt(const std::filesystem::path& path);
 
-/// The file is whole or gone.
+/// Takes a file off that list, once it is complete or removed.
 void keep_on_interrupt(const std::filesystem::path& path);
 
 }  // namespace lw

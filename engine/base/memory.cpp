@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint64_t unknown = std::numeric_limits<uint64_t>::max();
 
-/// The number in a file of one number; nothing for "max" or no file.
+/// The number that a file holds; nothing when the file is missing or holds a word such as "max".
 std::optional<uint64_t> number_in(const std::filesystem::path& path) {
     std::ifstream stream(path);
     uint64_t number = 0;
@@ -32,7 +32,8 @@ uint64_t available_in_system() {
     return unknown;
 }
 
-/// What the control group of the process and those above it leave (version 2 of the hierarchy).
+/// The bytes that the memory limits of the process's control group, and of the groups above it, still allow (cgroup
+/// version 2).
 uint64_t available_in_groups() {
     std::ifstream stream("/proc/self/cgroup");
     std::string line;
@@ -48,7 +49,7 @@ uint64_t available_in_groups() {
     }
 }
 
-/// Kibibytes behind a name in the status of this process, in bytes; 0 when it is not there.
+/// The value of a line such as "VmRSS: 1234 kB" in /proc/self/status, in bytes; 0 when there is no line of that name.
 uint64_t bytes_of_process(const std::string& wanted) {
     std::ifstream stream("/proc/self/status");
     std::string name, unit;

@@ -26,8 +26,8 @@ class ThreadLimit {
 
 #if defined(__SANITIZE_THREAD__)
 
-// ThreadSanitizer cannot see the locks of TBB, which is not instrumented: the same loops on plain threads, every body
-// in any order.
+// ThreadSanitizer does not know the locks of TBB, which is compiled without it. In its builds the same loops run on
+// plain threads.
 template <class Body>
 void parallel_for(size_t count, const Body& body, size_t grain = 1) {
     std::atomic<size_t> next{0};
@@ -49,7 +49,8 @@ void parallel_sort(Iterator first, Iterator last, const Less& less) {
 
 #else
 
-/// Calls body(i) for i in [0, count), in any order, on any thread. body must not throw for control flow.
+/// Calls body(i) for i in [0, count), in any order, on any thread, in runs of about `grain` indices or more. An
+/// exception of body ends the loop and reaches the caller; it is meant for errors, not for leaving the loop early.
 template <class Body>
 void parallel_for(size_t count, const Body& body, size_t grain = 1) {
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain), [&](const tbb::blocked_range<size_t>& range) {

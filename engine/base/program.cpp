@@ -18,7 +18,8 @@
 namespace lw {
 namespace {
 
-/// The lowest free number is what open() takes: the files of the work come after the three.
+/// Opens standard streams that are closed to /dev/null. open() takes the lowest free number, so files opened later get
+/// numbers above these three.
 void open_closed_streams() {
     for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) [[maybe_unused]]
@@ -30,14 +31,14 @@ int fail(const char* program, const std::string& what) {
     return 1;
 }
 
-/// Whether all that was printed has left the program.
+/// True when all printed text was written to stdout without an error.
 bool has_printed() { return std::cout.flush().good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
 
 }  // namespace
 
 int run_program(const char* program, const std::function<void()>& work) {
     open_closed_streams();
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of file sizes then fails like one to a full disk
     watch_for_interrupt();
     try {
         work();

@@ -1,5 +1,5 @@
-// Progress of long work: a redrawn line with rate and time left on a terminal, a plain line every
-// tenth in a pipe.
+// Progress of long work on stderr: on a terminal one line that is redrawn, with rate and time left; in a pipe a plain
+// line for every 10 %.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace lw {
 
-/// Progress to be shown elsewhere than on a terminal, and the wish to stop. Thread-safe.
+/// Progress for a caller that shows it itself (a window), and its request to stop. Thread-safe.
 class ProgressBoard {
   public:
     struct State {
@@ -18,7 +18,7 @@ class ProgressBoard {
     };
     State state() const;
     void set(const std::string& what, double fraction);
-    /// The work whose progress comes here throws Error at its next step.
+    /// Asks the work to stop: its next Progress::step() throws Error.
     void cancel() { cancelled_ = true; }
     bool is_cancelled() const { return cancelled_; }
 
@@ -37,12 +37,13 @@ class ProgressScope {
     ProgressScope& operator=(const ProgressScope&) = delete;
 };
 
-/// Thread-safe counter of `total` units of work named `what`; prints to stderr, or tells the board of its thread.
+/// Thread-safe counter of `total` units of work named `what`. Prints to stderr, or sets the board of its thread when a
+/// ProgressScope is alive.
 class Progress {
   public:
     Progress(std::string what, uint64_t total);
     ~Progress();
-    /// Adds finished units, redraws at most ten times a second.
+    /// Adds finished units and redraws at most ten times a second. Throws Error when the board was cancelled.
     void step(uint64_t units = 1);
 
   private:

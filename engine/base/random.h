@@ -13,7 +13,7 @@ inline uint64_t mix64(uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// One 32-bit word from the upper bits of a 64-bit hash to a float in [0, 1).
+/// The upper 24 bits of a 32-bit hash as a float in [0, 1).
 inline float to_unit_float(uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
 
 /// A stream of uniform numbers, seeded by (seed, stream, index). Value type, 16 bytes.

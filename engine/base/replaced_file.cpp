@@ -22,7 +22,7 @@ std::filesystem::path partial_name(const std::filesystem::path& path) {
     return partial += ".partial-" + std::to_string(getpid()) + "-" + std::to_string(count++);
 }
 
-/// Where the system shows an open file of this process.
+/// A path under which the file with this descriptor can be opened or linked.
 std::string name_of(int file) { return "/proc/self/fd/" + std::to_string(file); }
 
 }  // namespace
@@ -84,7 +84,7 @@ void ReplacedFile::commit() {
 
 void check_can_create(const std::filesystem::path& path, std::span<const std::filesystem::path> inputs) {
     for (const std::filesystem::path& input : inputs) {
-        std::error_code ignored;  // of inputs that are not there, and might be
+        std::error_code ignored;  // an input that does not exist (yet) is no error here
         if (std::filesystem::equivalent(path, input, ignored) ||
             std::filesystem::weakly_canonical(path, ignored) == std::filesystem::weakly_canonical(input, ignored))
             throw Error(path.string() + ": is an input of this program; choose another name for what it writes");

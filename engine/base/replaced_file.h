@@ -1,5 +1,6 @@
-// A file that appears whole or not at all: written beside its place without a name, so that nothing stays behind when
-// the process is killed; where the file system has no such files, under a name of this process. Then renamed.
+// A file that appears complete or not at all. It is written beside its place and then renamed. While it is written it
+// has no name (O_TMPFILE), so that nothing is left when the process is killed; on file systems without such files it
+// has a name with the number of the process.
 #pragma once
 #include <filesystem>
 #include <fstream>
@@ -7,10 +8,10 @@
 
 namespace lw {
 
-/// An open stream to a file beside `path`; commit() moves it into place, otherwise the destructor removes it, or
-/// Ctrl-C does (base/interrupt.h). Two writers of one path do not meet: the last to commit wins.
-/// Throws Error naming the file when it is something else than a file (a folder, a device, a pipe), and when it cannot
-/// be created, written to the end, or renamed.
+/// An open stream to a file beside `path`. commit() moves the file to `path`; without it the destructor removes the
+/// file, as does Ctrl-C (base/interrupt.h). Two processes may write the same path at once: the last to commit wins.
+/// Throws Error naming `path` when that is a folder, a device or a pipe, and when the file cannot be created, written
+/// to its end, or renamed.
 class ReplacedFile {
   public:
     explicit ReplacedFile(const std::filesystem::path& path, bool nameless = true);
@@ -29,15 +30,16 @@ class ReplacedFile {
     std::filesystem::path path_;
     std::filesystem::path partial_;
     std::ofstream stream_;
-    int nameless_ = -1;  // what stream_ writes to as well, when it has no name
+    int nameless_ = -1;  // descriptor of the file when it has no name, else -1
     bool committed_ = false;
 };
 
-/// Throws what ReplacedFile would throw for `path`, before long work whose result shall lie there, and when `path` is
-/// one of the `inputs`, which the work would destroy. Leaves no trace.
+/// A check to make before long work whose result is written to `path`: throws what ReplacedFile would throw, and throws
+/// Error when `path` is one of the `inputs`, which would be overwritten. Leaves no file.
 void check_can_create(const std::filesystem::path& path, std::span<const std::filesystem::path> inputs = {});
 
-/// Throws when two of the outputs of a program, those that are not empty, are one file.
+/// Throws Error when two of the paths are the same file. Empty paths stand for outputs that are not written and are
+/// skipped.
 void check_different(std::span<const std::filesystem::path> outputs);
 
 }  // namespace lw

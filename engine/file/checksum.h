@@ -1,4 +1,4 @@
-// The checksum of a photon map file. Also what a test needs that damages a file and signs it again.
+// The checksum of a photon map file. Public, so that a test can change a file and give it a valid checksum again.
 #pragma once
 #include <cstring>
 
@@ -6,7 +6,8 @@
 
 namespace lw {
 
-/// 64-bit hash in the order of the bytes; the last word of each added piece is padded with zeros.
+/// 64-bit hash of a sequence of pieces, in words of 8 bytes. The last word of each piece is padded with zeros, so the
+/// value depends on where pieces end.
 class Checksum {
   public:
     void add(const void* bytes, size_t size) {

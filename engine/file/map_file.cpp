@@ -76,14 +76,14 @@ uint64_t checksum_of(const Header& header, const PhotonMap& map) {
     throw Error(path.string() + ": " + what + "; bake the map again");
 }
 
-constexpr float max_metres = 1e10f;     // beyond it, what the shaders compute from a place may not be a number
-constexpr float max_cells = 512;        // across a search radius: the exact gather visits rings of them
-constexpr float farthest_cell = 1e8f;   // from the corner of a grid: the shaders count them in ints
+constexpr float max_metres = 1e10f;     // beyond it, shaders may compute infinities or NaN from a position
+constexpr float max_cells = 512;        // most cells across a search radius: the exact gather visits rings of them
+constexpr float farthest_cell = 1e8f;   // from a grid's corner to a point of the scene: shaders count cells in ints
 constexpr uint max_columns = 1u << 23;  // and rows: the shaders count them in floats
 
 bool is_place(float metres) { return std::abs(metres) < max_metres; }
 
-/// 2^-100 to 2^100: light divided by it stays a number.
+/// True for 2^-100 to 2^100: light divided by such a scale stays finite.
 bool is_scale(float scale) { return scale >= 0x1p-100f && scale <= 0x1p100f; }
 
 bool is_usable(const SurfaceGrid& g, float scene_size) {
@@ -95,7 +95,7 @@ bool is_usable(const SurfaceGrid& g, float scene_size) {
            g.columns <= max_columns && g.rows <= max_columns;
 }
 
-/// Every grid but those of caustics has a lattice, and the map a value for each of their nodes.
+/// Checks that every grid except those of caustics has a lattice, and that all arrays of nodes have a value per node.
 void check_lattices(const std::filesystem::path& path, const PhotonMap& map) {
     uint64_t nodes = 0;
     for (size_t i = 0; i < map.grids.size() - map.caustic_grids; ++i) {
@@ -111,9 +111,10 @@ void check_lattices(const std::filesystem::path& path, const PhotonMap& map) {
     if (nodes != map.coverage.size()) refuse(path, "lattices and coverage do not agree");
 }
 
-/// What the cuts of the grids [first, last) lead to is there, and no way through them is endless.
+/// Checks that every cut among the grids [first, last) leads to later cuts or to grids, and that no way through the
+/// cuts is too long.
 void check_cuts(const std::filesystem::path& path, const PhotonMap& map, size_t first, size_t last) {
-    std::vector<uint> deep(last - first, 0);  // cuts to pass at most
+    std::vector<uint> deep(last - first, 0);  // the longest way from each cut, in cuts
     for (size_t i = last; i-- > first;) {
         const SurfaceGrid& cut = map.grids[i];
         if (cut.columns > 0) continue;
@@ -199,7 +200,8 @@ Header read_header(std::ifstream& in, const std::filesystem::path& path, uint64_
     return header;
 }
 
-/// In order, of cells and lamps that exist, only with bits of lamps to refer to them.
+/// Checks that shadow masks are in the order of cells and lamps, that these exist, and that the map has visibility
+/// bits.
 void check_masks(const std::filesystem::path& path, const PhotonMap& map, const Scene& scene) {
     if (map.shadow_masks.size() >= 1u << (32 - first_mask_shift) ||
         (!map.shadow_masks.empty() && !map.has_visible_lamps()))
@@ -255,7 +257,7 @@ PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene)
         throw Error(path.string() + ": the scene " + scene.path.filename().string() +
                     " has changed since this map was baked, or the map is of another scene; bake it again");
 
-    constexpr uint64_t always_there = uint64_t(256) << 20;  // not worth asking
+    constexpr uint64_t always_there = uint64_t(256) << 20;  // bytes read without a look at the available memory
     if (file_size > always_there && file_size > available_memory())
         throw Error(path.string() + ": the map takes " + bytes_text(file_size) + " of memory, there are " +
                     bytes_text(available_memory()));

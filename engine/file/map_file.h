@@ -8,15 +8,15 @@
 
 namespace lw {
 
-/// Writes beside `path` and renames, so that an old file stays whole until the new one is. Throws Error naming the
-/// file.
+/// Writes the map to `path`. It is written beside that and then renamed, so an old file is only replaced by a complete
+/// one. Throws Error naming the file.
 void save_photon_map(const std::filesystem::path& path, const PhotonMap& map);
 
 /// Reads and checks a map: magic, version, sizes, checksum, every index, and that it was baked from `scene`.
 /// Throws Error("file: what") saying whether the map was damaged or the scene changed.
 PhotonMap load_photon_map(const std::filesystem::path& path, const Scene& scene);
 
-/// SCENE.glb -> SCENE.pmap beside it.
+/// The default file of a scene's map: SCENE.pmap beside SCENE.glb.
 std::filesystem::path default_map_path(const std::filesystem::path& scene);
 
 }  // namespace lw

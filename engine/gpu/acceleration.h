@@ -7,11 +7,11 @@
 
 namespace lw {
 
-/// Geometry 0 is opaque: rays end there by themselves. Triangles of geometry 1 are candidates that the shader decides
-/// on, each once.
+/// The triangles of an acceleration structure, in two geometries. Rays end at triangles of geometry 0, which is opaque.
+/// For each triangle of geometry 1 that a ray meets, the shader decides, and is asked only once.
 struct TracedTriangles {
     std::span<const glm::vec3> positions;
-    std::span<const glm::uvec3> corners;  // of the triangles of geometry 0, then of geometry 1; at least one
+    std::span<const glm::uvec3> corners;  // indices into `positions`, per triangle, geometry 0 first; at least one
     size_t opaque = 0;                    // triangles of geometry 0
 };
 
@@ -20,7 +20,7 @@ class Acceleration {
     /// Builds on the device and waits. Needs Device::ray_queries(). Throws Error when there is not enough memory.
     Acceleration(const Device& device, const TracedTriangles& triangles);
     Acceleration(Acceleration&&) = default;
-    Acceleration& operator=(Acceleration&&) = delete;  // would free buffers before what lies in them
+    Acceleration& operator=(Acceleration&&) = delete;  // would free the buffers before the structures in them
     /// For a descriptor (DescriptorSet::set_acceleration).
     vk::AccelerationStructureKHR handle() const { return *scene_.handle; }
     vk::DeviceSize bytes() const { return triangles_.buffer.size() + scene_.buffer.size(); }

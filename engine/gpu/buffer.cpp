@@ -64,7 +64,7 @@ void write_bytes(const Device& device, const Buffer& buffer, const void* bytes, 
         std::memcpy(staging.mapped(), static_cast<const char*>(bytes) + done, part);
         submit_and_wait(device, [&](vk::CommandBuffer commands) {
             stage_barrier(commands, vk::PipelineStageFlagBits2::eAllCommands,
-                          vk::PipelineStageFlagBits2::eTransfer);  // frames in flight still read it
+                          vk::PipelineStageFlagBits2::eTransfer);  // frames in flight may still read the buffer
             commands.copyBuffer(staging.handle(), buffer.handle(), vk::BufferCopy(0, done, part));
             stage_barrier(commands, vk::PipelineStageFlagBits2::eTransfer, vk::PipelineStageFlagBits2::eAllCommands);
         });

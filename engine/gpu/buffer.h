@@ -9,8 +9,8 @@ namespace lw {
 /// Owns a buffer and its memory. Device-local ones can be bound as storage or texel buffers and copied to and from.
 class Buffer {
   public:
-    /// host: visible to the CPU and coherent, for staging; traced: on the device, what acceleration structures are made
-    /// of and lie in (Device::ray_queries())
+    /// device: memory of the device. host: visible to the CPU and coherent, for staging. traced: memory of the device
+    /// for acceleration structures and their input; needs Device::ray_queries().
     enum class Place { device, host, traced };
 
     Buffer() = default;
@@ -19,9 +19,9 @@ class Buffer {
 
     vk::Buffer handle() const { return *buffer_; }
     vk::DeviceSize size() const { return size_; }
-    /// Of a traced buffer.
+    /// The address of a traced buffer.
     vk::DeviceAddress address(const Device& device) const { return device.handle().getBufferAddress(*buffer_); }
-    /// Start of the bytes of a host buffer.
+    /// The first byte of a host buffer; nullptr for others.
     void* mapped() const { return mapped_; }
 
   private:
@@ -31,15 +31,16 @@ class Buffer {
     void* mapped_ = nullptr;
 };
 
-/// Copies bytes into a device buffer from its start; waits until done.
+/// Copies `count` bytes to the start of a device buffer and waits until that is done.
 void write_bytes(const Device& device, const Buffer& buffer, const void* bytes, size_t count);
-/// Copies `count` bytes from the start of a device buffer; waits until done.
+/// Copies `count` bytes from the start of a device buffer and waits until that is done.
 void read_bytes(const Device& device, const Buffer& buffer, void* bytes, size_t count);
 
-/// The buffer as texels of this format, for texelFetch.
+/// A view of the buffer as texels of this format, for texelFetch.
 vk::UniqueBufferView view_as_texels(const Device& device, const Buffer& buffer, vk::Format format);
 
-/// A device buffer with these values; one of 128 zero bytes when there are none, so that it can be bound.
+/// A device buffer with a copy of `values`; with 128 zero bytes when there are none, so that it can be bound. `what`
+/// names it in errors.
 template <class T>
 Buffer upload(const Device& device, std::span<const T> values, const std::string& what,
               Buffer::Place place = Buffer::Place::device) {

@@ -1,4 +1,4 @@
-// Recording, submitting and timing GPU work. Work is submitted in one piece and waited for.
+// Recording, submitting and timing GPU work.
 #pragma once
 #include <functional>
 
@@ -7,7 +7,7 @@
 
 namespace lw {
 
-/// The device is gone; what lies on it must be made anew on another.
+/// The device was lost. Everything on it is gone and must be made again on a new Device.
 class DeviceLost : public Error {
   public:
     using Error::Error;
@@ -16,16 +16,16 @@ class DeviceLost : public Error {
 /// Records commands with `record`, submits them and waits until they are done. Throws DeviceLost.
 void submit_and_wait(const Device& device, const std::function<void(vk::CommandBuffer)>& record);
 
-/// All memory written in stage `from` is visible to stage `to`.
+/// Records a barrier: what earlier commands wrote in stage `from` is visible to later ones in stage `to`.
 void stage_barrier(vk::CommandBuffer commands, vk::PipelineStageFlags2 from, vk::PipelineStageFlags2 to);
 
-/// Timestamps on the GPU's clock.
+/// A set of `count` timestamps on the clock of the GPU.
 class Timestamps {
   public:
     Timestamps(const Device& device, uint32_t count);
     /// Must be recorded before the first write, outside rendering.
     void reset(vk::CommandBuffer commands) const { commands.resetQueryPool(*pool_, 0, count_); }
-    /// Time when all earlier commands are done.
+    /// Writes, as timestamp `index`, the time when all earlier commands are done.
     void write(vk::CommandBuffer commands, uint32_t index) const {
         commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *pool_, index);
     }

@@ -99,7 +99,7 @@ bool wants_queries(Rays rays, vk::PhysicalDevice device) {
     return rays == Rays::queries || (rays == Rays::fastest && !is_processor);
 }
 
-/// What the device lacks, or "".
+/// Names what the device lacks of the requirements, or is empty. `presents`: it must show pictures in a window too.
 std::string lack_of(vk::PhysicalDevice device, bool presents = false) {
     const uint32_t version = device.getProperties().apiVersion;
     if (version < VK_API_VERSION_1_3)
@@ -123,7 +123,7 @@ std::string list_names(const std::vector<vk::PhysicalDevice>& devices) {
     return names;
 }
 
-/// The best fit device; of those called `name` when it is not empty.
+/// The first of the devices, best first, that meets the requirements and whose name contains `name`.
 vk::PhysicalDevice choose(const std::vector<vk::PhysicalDevice>& devices, const std::string& name, bool presents) {
     if (devices.empty()) throw Error("Vulkan: no device found (mesa-vulkan-drivers has one that runs on the CPU)");
     std::string unfit;
@@ -221,7 +221,7 @@ void Device::create_device(bool presents, bool ray_queries) {
     chain.get<vk::PhysicalDeviceVulkan12Features>().scalarBlockLayout = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering = true;
     chain.get<vk::PhysicalDeviceVulkan13Features>().synchronization2 = true;
-    chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4 = true;  // glslang states work group sizes by id
+    chain.get<vk::PhysicalDeviceVulkan13Features>().maintenance4 = true;  // glslang writes LocalSizeId, which needs it
     device_ = physical_.createDeviceUnique(chain.get<vk::DeviceCreateInfo>());
     if (ray_queries) ray_functions_.emplace(*instance_, vkGetInstanceProcAddr, *device_, vkGetDeviceProcAddr);
     queue_ = device_->getQueue(queue_family_, 0);
@@ -283,7 +283,7 @@ std::vector<std::string> device_names() {
             names.push_back(name_of(device) + (lack.empty() ? "" : " (lacks " + lack + ")"));
         }
     } catch (const vk::SystemError&) {
-        names.clear();  // a machine without any driver refuses the instance: no devices
+        names.clear();  // without any driver no instance can be made: there are no devices
     }
     return names;
 }

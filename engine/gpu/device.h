@@ -1,6 +1,6 @@
 // A Vulkan 1.3 device with one queue that does graphics, compute and timestamps. Knows no scene and no photons.
-// Required features: scalarBlockLayout, dynamicRendering, synchronization2, maintenance4. Without such a device: one
-// Error. Used where the device has them: ray queries.
+// Requires the features scalarBlockLayout, dynamicRendering, synchronization2 and maintenance4, and throws Error
+// without a device that has them. Ray queries are used where the device has them.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -11,26 +11,31 @@
 
 namespace lw {
 
-/// Who finds the triangles that rays meet: the device's ray queries (VK_KHR_ray_query), or a traversal in compute.
-enum class Rays { fastest, queries, compute };  // fastest: queries, but compute where both run on a processor
+/// How rays find triangles: by the device's ray queries (VK_KHR_ray_query), or by a traversal in a compute shader.
+enum class Rays {
+    fastest,
+    queries,
+    compute
+};  // fastest: queries on a GPU that has them; compute on a software rasterizer
 /// By their names in options.
 inline const std::vector<std::pair<std::string, Rays>> rays_names{
     {"fastest", Rays::fastest}, {"queries", Rays::queries}, {"compute", Rays::compute}};
 inline constexpr const char* rays_help =
     "who traces the rays of a picture: compute, queries (VK_KHR_ray_query, an error on a device without), or fastest: "
     "queries on a GPU that has them, else compute";
-/// The one of this name, which must be among rays_names.
+/// The value of a name among rays_names.
 Rays rays_named(const std::string& name);
 
 struct DeviceSettings {
-    std::string name;         // part of the device's name, any case; empty: discrete before integrated before CPU
+    std::string name;  // part of the device's name, any case; empty: a discrete GPU, else an integrated one, else a CPU
     bool validation = false;  // Khronos validation layer with synchronization checks
-    std::vector<std::string> window_extensions{};  // of the instance; any: the device must be able to present
-    vk::DeviceSize memory_bytes = 0;               // most that may be used; 0: what the device has to give
+    std::vector<std::string>
+        window_extensions{};          // of the instance; when there are any, the device must be able to present
+    vk::DeviceSize memory_bytes = 0;  // most device memory to use; 0: all that the device has
     Rays rays = Rays::fastest;
 };
 
-/// Errors and warnings of the validation layer, in order; filled from any thread.
+/// Errors and warnings of the validation layer, in the order they came. Any thread may add to it.
 struct ValidationLog {
     std::mutex mutex;
     std::vector<std::string> messages;
@@ -51,21 +56,22 @@ class Device {
     vk::Queue queue() const { return queue_; }
     vk::CommandPool command_pool() const { return *command_pool_; }
     const std::string& name() const { return name_; }
-    /// The driver and its version in its own words, such as "Mesa 22.3.6".
+    /// The driver's name and version as it states them, such as "Mesa 22.3.6".
     std::string driver() const;
     const vk::PhysicalDeviceLimits& limits() const { return limits_; }
-    /// True when rays are to be traced by ray queries.
+    /// True when rays are traced by ray queries, as the settings and the device allow.
     bool ray_queries() const { return ray_functions_.has_value(); }
-    /// Of the extensions that come with ray queries, which the loader does not export.
+    /// The functions of the ray query extensions, which the loader does not export. Only when ray_queries().
     const vk::DispatchLoaderDynamic& ray_functions() const { return *ray_functions_; }
     /// Size of the largest heap of device-local memory, bytes.
     vk::DeviceSize memory_size() const;
-    /// Bytes that may be used of it now, `held` bytes being in use by this program: what the driver says is left
-    /// (VK_EXT_memory_budget, else what is not held), at most what is left of the settings' memory_bytes.
+    /// Bytes of that heap that may be used now, when this program already uses `held` bytes of it. What the driver says
+    /// is left (VK_EXT_memory_budget; without it, the heap less `held`), but no more than the settings' memory_bytes
+    /// less `held`.
     vk::DeviceSize memory_budget(vk::DeviceSize held = 0) const;
     /// Index of a memory type among `allowed` bits with all `wanted` properties, or -1.
     int find_memory_type(uint32_t allowed, vk::MemoryPropertyFlags wanted) const;
-    /// What the validation layer said so far; empty without validation.
+    /// All messages of the validation layer so far; none without validation.
     std::vector<std::string> validation_messages() const;
 
   private:

@@ -8,7 +8,7 @@
 
 namespace lw {
 
-/// What a shader finds at one binding.
+/// One binding of a descriptor set: number, type, count of the array, stages that read it.
 struct Binding {
     uint32_t binding;
     vk::DescriptorType type = vk::DescriptorType::eStorageBuffer;
@@ -35,7 +35,7 @@ class DescriptorSet {
     vk::DescriptorSet set_;
 };
 
-/// Layout of these sets and `push_bytes` of push constants seen by `stages`.
+/// A pipeline layout with these descriptor sets, from set 0 on, and `push_bytes` bytes of push constants for `stages`.
 vk::UniquePipelineLayout make_layout(const Device& device, std::span<const vk::DescriptorSetLayout> sets,
                                      vk::ShaderStageFlags stages, uint32_t push_bytes);
 
@@ -47,8 +47,8 @@ struct RasterShaders {
     SpirV fragment;
 };
 
-/// Triangles without vertex buffers, no culling, no blending, depth test `greater` (reversed depth).
-/// Viewport and scissor are dynamic.
+/// A pipeline that draws triangles without vertex buffers, culling or blending, with depth test `greater` (reversed
+/// depth). Viewport and scissor are dynamic.
 vk::UniquePipeline make_raster_pipeline(const Device& device, vk::PipelineLayout layout, RasterShaders code,
                                         SpecConstants constants, vk::Format color, vk::Format depth);
 

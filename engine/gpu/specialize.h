@@ -1,4 +1,4 @@
-// A shader as one pipeline needs it: its constants set, and gone what they leave no use for.
+// Specializes a shader for one pipeline: sets its constants and removes the code that they make unreachable.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -11,13 +11,13 @@ using SpirV = std::span<const uint32_t>;
 /// A value of a specialization constant.
 struct SpecConstant {
     uint32_t id;
-    uint32_t bits;  // of a bool, an integer or a float
+    uint32_t bits;  // the value, a bool, an integer or a float, as 32 bits
 };
 using SpecConstants = std::span<const SpecConstant>;
 
-/// `code` with specialization constants set, without the branches and functions that then never run. Constants that the
-/// shader does not have are passed over. A driver that is given it instead of the whole text has less to translate: a
-/// software rasterizer puts all functions into one before it looks at any constant. Throws Error for what is no SPIR-V.
+/// Returns `code` with its specialization constants set to `constants`, without the branches and functions that then
+/// never run. Constants that the shader does not have are ignored. A driver compiles the result faster: a software
+/// rasterizer inlines all functions before it looks at any constant. Throws Error when `code` is not SPIR-V.
 std::vector<uint32_t> specialize(SpirV code, SpecConstants constants);
 
 }  // namespace lw

@@ -64,7 +64,8 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::Extent2D 
 std::optional<uint32_t> Swapchain::acquire(vk::Semaphore available) const {
     uint32_t index = 0;
     const VkResult result = vkAcquireNextImageKHR(device_->handle(), *swapchain_, UINT64_MAX, available, {}, &index);
-    if (result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR) return index;  // present() tells of suboptimal ones
+    if (result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR)
+        return index;  // present() returns false for a suboptimal one
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::nullopt;
     fail(*device_, result);
 }

@@ -1,5 +1,5 @@
-// The images of a window's surface. Plain Vulkan: knows neither the window system nor what is shown.
-// Pictures are copied into an image, or drawn over it; 8-bit sRGB codes without further encoding.
+// The images of a window's surface. Plain Vulkan, without knowledge of the window system. The images hold 8-bit sRGB
+// codes, which are written as they are, by copies or draws.
 #pragma once
 #include <optional>
 
@@ -22,9 +22,10 @@ class Swapchain {
     vk::Image image(uint32_t i) const { return images_[i]; }
     vk::ImageView view(uint32_t i) const { return *views_[i]; }
 
-    /// The next image, free once `available` is signalled; none when the swapchain no longer fits its surface.
+    /// The index of the next image, which may be written once `available` is signalled; nothing when the swapchain no
+    /// longer fits its surface and must be made again.
     std::optional<uint32_t> acquire(vk::Semaphore available) const;
-    /// Shows image i after `finished`; false when the swapchain no longer fits its surface.
+    /// Shows image i once `finished` is signalled. Returns false when the swapchain no longer fits its surface.
     bool present(uint32_t i, vk::Semaphore finished) const;
 
   private:
@@ -36,7 +37,7 @@ class Swapchain {
     std::vector<vk::UniqueImageView> views_;
 };
 
-/// Pixels of the surface; the wanted size where the surface leaves it to the application.
+/// The size of the surface in pixels; `wanted` when the surface leaves it to the application.
 vk::Extent2D surface_size(const Device& device, vk::SurfaceKHR surface, vk::Extent2D wanted);
 
 }  // namespace lw

@@ -14,7 +14,8 @@ class Target {
     vk::ImageView view() const { return *view_; }
     vk::Extent2D size() const { return size_; }
     vk::Format format() const { return format_; }
-    /// Records a change of layout that orders stage `from` before stage `to`; eUndefined drops what it holds.
+    /// Records a change of layout from `before` to `after`; stage `from` of earlier commands ends before stage `to` of
+    /// later ones begins. With `before` = eUndefined the content is lost.
     void change_layout(vk::CommandBuffer commands, vk::ImageLayout before, vk::ImageLayout after,
                        vk::PipelineStageFlags2 from, vk::PipelineStageFlags2 to) const;
 

@@ -10,7 +10,7 @@
 namespace lw {
 namespace {
 
-/// What both measures start from; `colour` is grey when a single channel is compared.
+/// A picture prepared for both kinds of measure. When a single channel is compared, `colour` holds it three times.
 struct Pixels {
     Image colour;               // channels R, G, B
     std::vector<float> values;  // luminance, or the channel
@@ -54,7 +54,7 @@ double mean(const std::vector<float>& values) {
     return sum / double(values.size());
 }
 
-/// The two pictures, checked to be comparable, and the mean of the reference.
+/// Both pictures, after the check that they can be compared, and the mean of the reference.
 struct Pair {
     Pixels picture, reference;
     double mean;
@@ -94,7 +94,7 @@ double blurred_p95(const Pair& pair) {
     int width = pair.reference.colour.width, height = pair.reference.colour.height;
     std::vector<float> a = blur_8x8(pair.picture.values, width, height);
     std::vector<float> r = blur_8x8(pair.reference.values, width, height);
-    std::vector<double> errors(a.size());  // ratios of floats may be beyond them
+    std::vector<double> errors(a.size());  // the ratio of two floats may be too large for a float
     for (size_t i = 0; i < a.size(); ++i)
         errors[i] = std::abs(double(a[i]) - double(r[i])) / std::max(double(r[i]), 0.01 * pair.mean);
     auto rank = errors.begin() + std::ptrdiff_t(double(errors.size() - 1) * 0.95);

@@ -1,7 +1,6 @@
-// How far a picture is from its reference, in the numbers Lumenwalk reports.
-// In: two pictures of one size with channels R, G, B in cd/m2, or one channel that both have, e.g. "illuminance" in
-// lux. RMSE, relMSE and the ratio are of luminance (Rec.709) or of that channel; FLIP is of exposed, tone-mapped
-// colour.
+// How far a picture is from its reference: bias, RMSE, relMSE, FLIP. In: two pictures of one size with channels R, G, B
+// in cd/m2, or one channel that both have, e.g. "illuminance" in lux. RMSE, relMSE and the ratio are of luminance
+// (Rec.709) or of that channel; FLIP is of exposed, tone-mapped colour.
 #pragma once
 #include <string>
 
@@ -18,7 +17,7 @@ struct Comparison {
     double flip = 0;                // mean FLIP, 0 to 1 (image/flip.h)
     double p95_relative_error = 0;  // 95th percentile of |a - r| / max(r, 0.01 mean r), both blurred by an 8x8 box
     double reference_mean = 0;      // cd/m2, or the channel's unit
-    float exposure_ev = 0;          // EV100 at which FLIP looked: auto_exposure_ev of the reference
+    float exposure_ev = 0;  // EV100 at which both pictures were exposed for FLIP: auto_exposure_ev() of the reference
 };
 
 /// Compares `picture` with `reference`. An empty `channel` means R, G, B.

@@ -23,7 +23,8 @@ namespace {
 constexpr int max_side = 1 << 17;
 constexpr float largest_half = 65504.0f;
 constexpr uint64_t max_samples = uint64_t(1) << 30;
-// A picture with more samples than this must have a file that could hold them at 1:4096, the best any codec does here.
+// A picture with more samples than this is read only when its file is at least 1/4096 as large as the picture. No codec
+// of OpenEXR compresses more, so a smaller file lies about its size.
 constexpr uint64_t trusted_samples = uint64_t(1) << 24;
 
 std::vector<half> to_half(const std::vector<float>& values) {

@@ -1,5 +1,5 @@
-// Pictures to and from OpenEXR files (openexr.com, version 3.1); the only user of that library.
-// In and out: an Image, row 0 on top, every channel under its own name. Values pass unchanged but for half rounding.
+// Pictures to and from OpenEXR files (openexr.com, version 3.1); the only user of that library. In and out: an Image,
+// row 0 on top, every channel under its own name. Values are unchanged, except that 16-bit channels are rounded.
 #pragma once
 #include <filesystem>
 

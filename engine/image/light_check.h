@@ -1,4 +1,4 @@
-// The last guard before a picture is written: light is finite and not negative.
+// A check made before a picture is written: light is finite and not negative.
 #pragma once
 #include "image/image.h"
 

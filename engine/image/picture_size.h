@@ -1,4 +1,4 @@
-// Pixels of a picture from a text, for command lines.
+// Parses "WxH", the size of a picture in pixels, for command lines.
 #pragma once
 #include <algorithm>
 #include <charconv>
@@ -8,10 +8,11 @@
 namespace lw {
 
 struct WantedSize {
-    unsigned width = 0, height = 0;  // 0: the text was none
+    unsigned width = 0, height = 0;  // 0 when the text was not a size
 };
 
-/// Reads "WxH" in plain digits, both from `least` to `most`.
+/// Reads "WxH" in plain digits. Returns 0 x 0 when the text is anything else, or when width or height is not in [least,
+/// most].
 inline WantedSize parse_picture_size(std::string_view text, unsigned least, unsigned most) {
     WantedSize size;
     const char *end = text.data() + text.size(), *cross = text.data() + std::min(text.find('x'), text.size());

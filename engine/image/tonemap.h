@@ -19,10 +19,11 @@ vec3 tone_map_pixel(const vec3& rgb_cd_m2, float exposure_ev);
 /// Throws Error when a channel is missing.
 Rgb8Image tonemap(const Image& image, float exposure_ev);
 
-/// The EV that puts the log-average luminance of the picture's 5th to 95th percentile at 0.2 on the screen, but its
-/// 90th percentile no higher than 1.2, so that a window or lamp may burn out and a room may not. 0 for a black picture.
+/// The EV that puts the log-average luminance of the picture's 5th to 95th percentile at 0.2 on the screen, but puts
+/// the 90th percentile at 1.2 or below: windows and lamps may be clipped to white, the room may not. Returns 0 for a
+/// black picture.
 float auto_exposure_ev(const Image& image);
-/// The same for the luminances of some of its pixels, cd/m2.
+/// The same from the luminances of a sample of the picture's pixels, cd/m2.
 float auto_exposure_ev(std::vector<float> luminances);
 
 }  // namespace lw

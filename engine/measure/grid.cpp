@@ -21,8 +21,8 @@ std::vector<std::string> tokens_of(const std::string& text) {
 
 int axis_of(vec3 facing) { return facing.x != 0 ? 0 : facing.y != 0 ? 1 : 2; }
 
-/// Cells across a side so that none is wider than the spacing; EN 12464-1 rounds to the nearest number, which may make
-/// them wider.
+/// The number of cells along a side of the field (m), so that none is wider than the spacing. EN 12464-1 rounds to the
+/// nearest number, which may make them wider.
 uint cells_of(double side, double spacing) { return uint(std::max(1.0, std::ceil(side / spacing - 1e-9))); }
 
 }  // namespace
@@ -56,7 +56,7 @@ GridRequest parse_grid(const std::string& text) {
 
 SensorSet make_grid(const GridRequest& request, const Scene& scene) {
     const int normal_axis = axis_of(request.facing);
-    // Columns go along x (of a wall facing x: along z), rows along z (of a wall: upwards).
+    // Columns follow x, but z on a wall that faces x. Rows follow z, but go upwards on a wall.
     const int across = normal_axis == 0 ? 2 : 0, along = normal_axis == 1 ? 2 : 1;
     const double width = request.high[across] - request.low[across] - 2 * request.margin;
     const double height = request.high[along] - request.low[along] - 2 * request.margin;

@@ -1,4 +1,4 @@
-// Where to measure: calculation grids of EN 12464-1, evenly spread points of an object, points of a CSV file.
+// Makes sets of sensors: calculation grids of EN 12464-1, evenly spread points of an object, points of a CSV file.
 // Texts and files are in world coordinates (metres, Y up); sensors are relative to Scene::origin.
 #pragma once
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace lw {
 
-/// A rectangle whose edges follow two axes, measured from one side.
+/// A calculation grid to be made: a rectangle whose edges are parallel to two axes.
 struct GridRequest {
     std::string name;
     glm::dvec3 low{0}, high{0};  // opposite corners; equal in the coordinate of `facing`
@@ -19,15 +19,17 @@ struct GridRequest {
     std::string task;
 };
 
-/// Largest distance between points of a grid over a field `d` metres long: 0.2 x 5^log10(d), at most 10 m.
+/// The largest distance between the points of a grid that EN 12464-1 allows for a field `d` m long: 0.2 x 5^log10(d),
+/// at most 10 m.
 double grid_spacing(double d);
 
 /// "NAME: X,Y,Z to X,Y,Z [facing=+x|-x|+y|-y|+z|-z] [margin=M] [spacing=M] [kind=planar|cylindrical] [task=PRESET]".
 /// Throws Error naming the grid and what is wrong with it.
 GridRequest parse_grid(const std::string& text);
 
-/// Points in the middles of equal cells, the cells at most `spacing` wide and with sides between 1:2 and 2:1 where the
-/// field allows it. EN 12464-1: d is the longer side, or the shorter one of a field longer than 2:1.
+/// The sensors of a grid: in the middles of equal cells that are at most request.spacing wide, with sides between 1:2
+/// and 2:1 where the field allows it. Without a spacing that of EN 12464-1, where d is the longer side of the field, or
+/// the shorter one when the field is longer than 2:1.
 SensorSet make_grid(const GridRequest& request, const Scene& scene);
 
 /// "OBJECT[: [facing=+y] [count=N] [task=PRESET]]": N points spread evenly by area over the front faces of an object,

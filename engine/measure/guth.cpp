@@ -12,9 +12,10 @@ constexpr size_t rows = 31, columns = 20;  // T/R from 0 to 3, H/R from 0 to 1.9
 constexpr double rounding = 1e-5;
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// CIE 117:1995, table 4.1, by a public transcription; the print itself was not at hand. At T/R 2.7, H/R 0.6 that has
-/// 7.50, said to be printed so, out of line with its neighbours (7.00, 7.08) and 11 % over Levin's formula: kept, that
-/// our UGR be that of the standard. At T/R 0.3, H/R 0.3 it has 1.97, which exceeds the next row's 1.96: here 1.87.
+/// CIE 117:1995, table 4.1, from a public transcription; the printed standard was not available. At T/R 2.7, H/R 0.6
+/// the transcription has 7.50, which is said to be in print too. It does not fit its neighbours (7.00, 7.08) and is 11
+/// % above Levin's formula; it is kept, so that our UGR is that of the standard. At T/R 0.3, H/R 0.3 it has 1.97, more
+/// than the 1.96 of the next row; here 1.87 is used instead.
 constexpr std::array<std::array<double, columns>, rows> table = {{
     {1, 1.26, 1.53, 1.9, 2.35, 2.86, 3.5, 4.2, 5, 6, 7, 8.1, 9.25, 10.35, 11.7, 13.15, 14.7, 16.2, none, none},
     {1.05, 1.22, 1.46, 1.8, 2.2, 2.75, 3.4, 4.1, 4.8, 5.8, 6.8, 8, 9.1, 10.3, 11.6, 13, 14.6, 16.1, none, none},

@@ -24,7 +24,7 @@ std::string base64(const std::vector<uint8_t>& bytes) {
     return text;
 }
 
-/// Value at a place in cells of the grid, bilinear between the sensors, constant beyond the outermost.
+/// The value at a place (x, y) of the grid, in cells: bilinear between the sensors, constant beyond the outermost.
 double value_at(const std::vector<Value>& values, const GridShape& grid, double x, double y) {
     const double column = std::clamp(x - 0.5, 0.0, double(grid.columns - 1)),
                  row = std::clamp(y - 0.5, 0.0, double(grid.rows - 1));
@@ -47,7 +47,8 @@ Rgb8Image colored_grid(const std::vector<Value>& values, const GridShape& grid, 
     return image;
 }
 
-/// Where a line is farthest from the numbers, which stand in the middles of the cells; nowhere if it would hide one.
+/// Where to write the level of an isolux line: its point farthest from the numbers, which stand in the middles of the
+/// cells. Nothing when it would hide one everywhere.
 std::optional<vec2> label_place(const std::vector<IsoluxSegment>& line) {
     constexpr float beside_number = 0.25f;  // cells
     const auto off = [](vec2 at) { return length(fract(at) - vec2(0.5f)); };
@@ -59,7 +60,8 @@ std::optional<vec2> label_place(const std::vector<IsoluxSegment>& line) {
     return best;
 }
 
-/// Lines at levels of the field's own range, not at those of the colours, which all ambiances share.
+/// The isolux lines as SVG paths. Their levels follow the range of these values; the range of the colours is common to
+/// all ambiances.
 std::string isolux_paths(const std::vector<Value>& values, const GridShape& grid, const vec2& cell) {
     std::vector<double> lux;
     for (const Value& value : values) lux.push_back(value.lux);
@@ -98,7 +100,7 @@ std::string legend(double low, double high) {
         text += printed(",rgb(%d,%d,%d)", int(rgb[0]), int(rgb[1]), int(rgb[2]));
     }
     text += ")\"></span>";
-    constexpr double room_for_unit = 0.95;  // of the bar: "lx" stands behind
+    constexpr double room_for_unit = 0.95;  // part of the bar that levels may use; "lx" is written behind
     for (const double level : isolux_levels(low, high))
         if (const double at = log_share(level, low, high); at < room_for_unit)
             text += printed("<span class=tick style=\"left:%.2f%%\">%g</span>", 100 * at, level);

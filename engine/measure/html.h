@@ -10,10 +10,10 @@
 
 namespace lw {
 
-/// & < > " as entities.
+/// The text with & < > " replaced by HTML entities.
 std::string escaped(const std::string& text);
 
-/// printf into a string.
+/// Formats as printf does, into a string of at most 511 bytes.
 template <class... Values>
 std::string printed(const char* format, Values... values) {
     char text[512];
@@ -21,13 +21,14 @@ std::string printed(const char* format, Values... values) {
     return text;
 }
 
-/// A PNG as a data: address.
+/// The picture as a data: URL of a PNG.
 std::string data_address(const Rgb8Image& image);
 
-/// Colours from low to high with the levels written under them.
+/// A bar of the false colours from `low` to `high` lx with levels written under it, as HTML.
 std::string legend(double low, double high);
 
-/// The plan under a grid with its values in false colours, isolux lines and, of small grids, the numbers, as SVG.
+/// A grid as SVG: its `plan`, which reaches `band` m beyond the grid, over it the values in false colours from `low` to
+/// `high` lx, isolux lines, and the numbers when the grid is small. `values`: one per sensor of the grid.
 std::string grid_drawing(const MeasuredSet& measured, const std::vector<Value>& values, const Rgb8Image& plan,
                          float band, double low, double high);
 

@@ -14,17 +14,17 @@ struct IsoluxSegment {
     vec2 from, to;
 };
 
-/// The line of `level` by marching squares between neighbouring sensors, linear between them. Row by row values;
-/// saddles are cut by the mean of their corners.
+/// The line at `level`, by marching squares with linear interpolation between neighbouring sensors. `values`: columns x
+/// rows, row by row. Ambiguous squares are decided by the mean of their corners.
 std::vector<IsoluxSegment> isolux_line(std::span<const double> values, uint columns, uint rows, double level);
 
-/// Levels for lines and legends between two illuminances: of the series 1 2 3 5 7.5 x 10^n lux, at most nine.
+/// At most nine levels between two illuminances, from the series 1, 2, 3, 5, 7.5 x 10^n lux.
 std::vector<double> isolux_levels(double low, double high);
 
-/// A value between 0 (dark blue) and 1 (dark red) as sRGB codes: the turbo map (Mikhailov 2019).
+/// The colour of a value from 0 (dark blue) to 1 (dark red), as sRGB codes: the map "turbo" (Mikhailov 2019).
 std::array<uint8_t, 3> false_color(double share);
 
-/// Where a value lies between two others on a logarithmic scale, 0 to 1.
+/// Where `value` lies between `low` (0) and `high` (1) on a logarithmic scale; clamped to [0, 1].
 double log_share(double value, double low, double high);
 
 }  // namespace lw

@@ -1,4 +1,5 @@
-// The light of lamps that one view ray meets by way of mirroring and glossy surfaces, by lamp and first surface.
+// The light of lamps that a view ray shows by reflections at mirrors and glossy surfaces, told apart by lamp and by the
+// first surface that reflects.
 #pragma once
 #include <map>
 #include <span>
@@ -9,7 +10,7 @@
 
 namespace lw {
 
-/// Luminance in cd/m2 by (lamp, object).
+/// Luminance in cd/m2 for each (lamp, object of the first reflecting surface).
 using MirroredLight = std::map<std::pair<uint, uint>, double>;
 
 /// Follows view rays. All references must outlive it. Thread-safe.
@@ -18,7 +19,8 @@ class MirrorTracer {
     MirrorTracer(const Scene& scene, const RayCaster& caster, std::span<const vec3> powers)
         : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), powers_(powers) {}
 
-    /// Adds `share` of what the ray brings: what each sheet of thin glass on its way reflects, and the surface behind.
+    /// Traces a view ray and adds `share` times the mirrored light of what it meets: of every sheet of thin glass on
+    /// its way and of the first other surface.
     void add(vec3 origin, vec3 direction, double share, Rng& rng, MirroredLight& light) const;
 
   private:

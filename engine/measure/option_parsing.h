@@ -1,4 +1,4 @@
-// The small language of the options: words, numbers and KEY=VALUE pairs, each error naming what was read.
+// Parses the texts of options: words, numbers, points and KEY=VALUE pairs. `where` begins the message of every Error.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -18,15 +18,15 @@ std::vector<std::string> split(const std::string& text, char separator);
 /// A finite number. Throws Error("WHERE: "TEXT" is not a number").
 double parse_number(const std::string& text, const std::string& where);
 
-/// "X,Y,Z".
+/// Parses "X,Y,Z".
 glm::dvec3 parse_point(const std::string& text, const std::string& where);
 
-/// "+x" .. "-z" as a unit vector.
+/// Parses "+x", "-x", "+y", "-y", "+z" or "-z" to a unit vector.
 vec3 parse_axis(const std::string& text, const std::string& where);
 
 Response parse_response(const std::string& text, const std::string& where);
 
-/// The tokens "KEY=VALUE"; throws Error for a key that is not in `known`, or given twice.
+/// Parses tokens "KEY=VALUE" to a map. Throws Error for a key that is not in `known` or is given twice.
 std::map<std::string, std::string> parse_pairs(const std::vector<std::string>& tokens,
                                                const std::vector<std::string>& known, const std::string& where);
 

@@ -19,11 +19,11 @@ constexpr float border_within = 1e-2f;        // m
 constexpr float lamp_within = 1e-2f;          // m
 constexpr int directions_beside = 16;
 constexpr float min_alignment = 0.99f;  // cosine between a sensor and the surface it measures
-constexpr float facing = 0.5f;          // cosine from which a surface is on one side of another direction
-constexpr size_t max_around = 256;      // triangles within a millimetre
-constexpr int pushes = 8;               // out of a corner: each wall moves the sensor a little towards the others
+constexpr float facing = 0.5f;          // least cosine between a sensor and a surface that counts as behind it
+constexpr size_t max_around = 256;      // most triangles that are looked at within a millimetre
+constexpr int pushes = 8;  // rounds of moving out of a corner: each wall moves the sensor a little towards the others
 
-/// A triangle close to a sensor; the normal tells the side on which the sensor is to stand.
+/// A triangle close to a sensor. Its normal points to the side on which the sensor must be.
 struct Facet {
     std::array<vec3, 3> corners;
     vec3 normal;
@@ -36,8 +36,9 @@ struct Facet {
     vec3 pushed(vec3 p) const { return p + normal * (height_over_surface - height(p)); }
 };
 
-/// The facets around a sensor, the nearest first. What it measures counts from either side; so does what is behind a
-/// sensor that is on no surface of its own direction. Of all others the front does, and of sheets the side it is on.
+/// The triangles within 1 mm of a sensor: those it measures first, then by distance. The normal of a measured triangle
+/// is turned to the sensor's direction, as is that of one behind a sensor that measures none. For other triangles the
+/// front counts, or for double-sided ones the side on which the sensor is.
 std::vector<Facet> facets_around(const SurfaceReader& surfaces, const RayCaster& caster, const Sensor& sensor) {
     std::vector<uint> found;
     caster.triangles_around(sensor.position, height_over_surface, max_around, found);
@@ -65,8 +66,8 @@ std::vector<Facet> facets_around(const SurfaceReader& surfaces, const RayCaster&
     return facets;
 }
 
-/// Of two facets back to back the nearer stays. A wall whose front is turned away from the surface that is measured is
-/// turned round.
+/// Chooses the triangles from which the sensor is moved. Of two back to back the nearer is kept. A wall whose front is
+/// turned away from the measured surface is turned round.
 std::vector<Facet> sides_of(const std::vector<Facet>& facets, vec3 position) {
     const auto is_over_measured = [&](vec3 p) {
         return std::any_of(facets.begin(), facets.end(), [&](const Facet& f) {

@@ -12,12 +12,12 @@ namespace {
 constexpr double normal_90 = 1.645;   // two-sided 90 % of a normal distribution
 constexpr double student_90 = 1.895;  // of Student's t with repetitions - 1 = 7 degrees of freedom
 static_assert(repetitions == 8);
-/// Even rays that all miss a small bright thing agree with each other. What they gain over random ones is not believed
-/// beyond this part of the random error.
+/// Quasi-random rays that all miss a small bright source agree with each other. So the error of the rays is taken as at
+/// least this part of the error that random rays would have.
 constexpr double min_of_scatter = 0.25;
 constexpr double min_photons = 100;
 
-/// Why a number should not be signed, or "".
+/// The reason not to trust a value, or "".
 std::string doubt_of(const Reading& reading, const Value& value) {
     char text[96] = "";
     if (reading.blocked) return "inside or right under an object";
@@ -34,7 +34,8 @@ std::string doubt_of(const Reading& reading, const Value& value) {
     return text;
 }
 
-/// Standard error of a sum over the colours from the squares of theirs: they err together (an upper bound).
+/// The standard error of a sum over the channels, from their variances. Assumes that the channels err together, which
+/// gives an upper bound.
 double joined_error(vec3 factor, ChannelLux variance) {
     double sum = 0;
     for (int c = 0; c < 3; ++c) sum += double(factor[c]) * std::sqrt(double(variance[c]));

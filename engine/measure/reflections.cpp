@@ -17,7 +17,7 @@ namespace {
 constexpr uint max_surroundings = 96;   // pixels path traced around a patch
 constexpr uint surrounding_paths = 32;  // per pixel
 
-/// One view as pixels.
+/// The pixels of a view and their rays.
 struct View {
     const Camera& camera;
     int width, height;
@@ -61,7 +61,8 @@ std::vector<MirroredLight> mirrored_light(const Scene& scene, const RayCaster& c
     return light;
 }
 
-/// Connected pixels (by edge or corner) in which `object` shows `lamp` above the limit.
+/// Finds the patches: connected pixels (by edge or corner) in which one object shows one lamp with more than `limit`
+/// cd/m2. `light`: the mirrored light of each pixel.
 std::vector<Reflection> grow_patches(const std::vector<MirroredLight>& light, const View& view, double limit) {
     std::vector<Reflection> patches;
     std::map<std::pair<uint, uint>, std::vector<char>> bright;
@@ -99,13 +100,14 @@ std::vector<uint> surroundings_of(const Reflection& patch, const std::vector<cha
                 if (!reached[other]) next.push_back(other), reached[other] = 1;
             });
         for (uint pixel : next)
-            if (step > 0 && !taken[pixel]) found.push_back(pixel);  // the nearest ones are half patch
+            if (step > 0 && !taken[pixel])
+                found.push_back(pixel);  // the first ring of pixels is left out: they are partly patch
         front = std::move(next);
     }
     return found;
 }
 
-/// Pixels in which a lamp itself or any reflection above the limit is seen.
+/// For each pixel: 1 when it shows a lamp itself or a reflection above the limit.
 std::vector<char> taken_pixels(const Scene& scene, const RayCaster& caster, const View& view,
                                const std::vector<Reflection>& patches) {
     std::vector<char> taken(view.size(), 0);
@@ -130,7 +132,7 @@ double mean_luminance(const PathTracer& tracer, const View& view, const std::vec
     return count ? sum / double(count) : 0;
 }
 
-/// Fills in size and luminance; `light` is what the pixels reflect.
+/// Fills in the patch's size, place and luminance. `light`: the mirrored light of each pixel.
 void measure(Reflection& patch, const std::vector<MirroredLight>& light, const View& view) {
     const vec3 forward = -view.camera.rotation[2], up = view.camera.rotation[1];
     double mean = 0;
@@ -229,7 +231,7 @@ void write_reflections(const std::filesystem::path& path, const Scene& scene,
 
 std::vector<OutlineEdge> outline_of(const Reflection& reflection, int width) {
     const auto columns_wide = uint(width);
-    const auto inside = [&](uint x, uint y) {  // x may be -1 as the largest number
+    const auto inside = [&](uint x, uint y) {  // x may be -1, as the largest uint
         return x < columns_wide &&
                std::binary_search(reflection.pixels.begin(), reflection.pixels.end(), y * columns_wide + x);
     };

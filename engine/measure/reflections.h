@@ -10,15 +10,15 @@
 
 namespace lw {
 
-/// What a patch must exceed to be reported.
+/// A patch is reported when it exceeds all of these.
 struct ReflectionLimits {
     double luminance = 500;     // cd/m2 of the mirrored lamp
-    double ratio = 3;           // of the patch to its surroundings
+    double ratio = 3;           // luminance of the patch over that of its surroundings
     double solid_angle = 2e-5;  // sr: a square of a quarter of a degree
 };
 
 struct ReflectionSettings {
-    int width = 320, height = 180;  // pixels looked at
+    int width = 320, height = 180;  // pixels of the view in which reflections are looked for
     uint samples = 16;              // rays per pixel
     uint64_t seed = 1;
     ReflectionLimits limits;
@@ -28,7 +28,7 @@ struct ReflectionSettings {
 struct Reflection {
     uint lamp = 0;
     uint object = 0;            // the first surface that reflects it, an index into scene.objects
-    double luminance = 0;       // cd/m2, mean of the patch with its surroundings' luminance under it
+    double luminance = 0;       // cd/m2, mean over the patch: the mirrored light plus the luminance of the surroundings
     double peak = 0;            // cd/m2 of the brightest pixel
     double surroundings = 0;    // cd/m2, mean around the patch
     double solid_angle = 0;     // sr
@@ -55,19 +55,19 @@ ReflectionReport find_reflections(const Scene& scene, const RayCaster& caster, c
 /// "window mirrors desk_2: 8400 cd/m2, 14x its surroundings".
 std::string describe(const Scene& scene, const Reflection& reflection);
 
-/// One line per reflection, with a header. Throws Error when the file cannot be written.
+/// Writes a CSV file with a header and one line per reflection. Throws Error when the file cannot be written.
 void write_reflections(const std::filesystem::path& path, const Scene& scene, const ReflectionReport& report);
 
-/// The reports of several views, such as those along a walk, by their names.
+/// The report of a view that has a name, such as one along a walk.
 struct ViewedReflections {
     std::string view;
     ReflectionReport report;
 };
-/// The same table with the name of the view as first column.
+/// The same for several views, with the name of the view as first column.
 void write_reflections(const std::filesystem::path& path, const Scene& scene,
                        const std::vector<ViewedReflections>& views);
 
-/// An edge between a pixel of a patch and one outside, in pixels from the top left corner.
+/// An edge between a pixel of a patch and one outside: from (x0, y0) to (x1, y1), in pixels from the top left corner.
 struct OutlineEdge {
     uint x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };

@@ -59,13 +59,13 @@ std::string table_of_fields(const Survey& survey, const AmbianceFactors& ambianc
     return text + "</table>\n";
 }
 
-/// "0.5", or by colour "0.9 0.5 0.2".
+/// A lamp's factor as text: "0.5", or "0.9 0.5 0.2" when the channels differ.
 std::string power_text(vec3 factor) {
     if (factor.x == factor.y && factor.y == factor.z) return printed("%.3g", double(factor.x));
     return printed("R %.2f G %.2f B %.2f", double(factor.x), double(factor.y), double(factor.z));
 }
 
-/// Mean lux of a field that each lamp brings.
+/// A table of the mean lux that each lamp brings to each field.
 std::string table_of_lamps(const Survey& survey, const Scene& scene, const AmbianceFactors& ambiance) {
     std::string text = "<table><tr><th>lamp<th>power";
     for (const MeasuredSet& measured : survey.sets) text += "<th>" + escaped(measured.set.name) + " lx";
@@ -95,7 +95,7 @@ std::string table_of_points(const MeasuredSet& measured, const std::vector<Value
     return text + "</table>\n";
 }
 
-/// Bounds of the colours of a field: the same in all ambiances.
+/// The lowest and highest lux of the colour scale of a field, common to all ambiances.
 std::pair<double, double> range_of(const MeasuredSet& measured, const Survey& survey) {
     double low = 1e30, high = 0;
     for (const AmbianceFactors& ambiance : survey.ambiances)
@@ -105,7 +105,7 @@ std::pair<double, double> range_of(const MeasuredSet& measured, const Survey& su
     return {std::clamp(low, high * 1e-2, high * 0.8), high};
 }
 
-/// How a grid lies: its points, the corner that is drawn at the top left, and where its columns and rows go.
+/// A line on the place of a grid: number of points, the corner drawn at the top left, directions of columns and rows.
 std::string note_of(const SensorSet& set, const Scene& scene) {
     const auto axis = [](vec3 v) { return v.x != 0 ? "x" : v.y != 0 ? "y" : "z"; };
     const GridShape& grid = set.grid;
@@ -118,7 +118,7 @@ std::string note_of(const SensorSet& set, const Scene& scene) {
         axis(grid.across), axis(grid.along));
 }
 
-/// Which values should not be signed, and why.
+/// A table of the values that should not be trusted, with the reason.
 std::string table_of_doubts(const Survey& survey, const AmbianceFactors& ambiance) {
     constexpr size_t most = 20;
     std::string rows;
@@ -137,7 +137,7 @@ std::string table_of_doubts(const Survey& survey, const AmbianceFactors& ambianc
            "</table>\n";
 }
 
-/// What path tracing says of the intervals.
+/// A table of how many intervals hold the path-traced value.
 std::string table_of_agreement(const Survey& survey) {
     if (survey.sets.empty() || survey.sets[0].traced.empty()) return "";
     const AmbianceFactors& ambiance = survey.ambiances[0];

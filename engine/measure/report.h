@@ -1,5 +1,5 @@
-// A survey as one HTML file without anything outside it: tables per ambiance and per lamp, plans with false colours and
-// isolux lines, camera views in false colours.
+// A survey as one self-contained HTML page: tables per ambiance and per lamp, plans with false colours and isolux
+// lines, camera views in false colours.
 #pragma once
 #include <string>
 #include <vector>

@@ -18,11 +18,12 @@ struct Sensor {
     Response response = Response::planar;
 };
 
-/// Lux of a receiver in radiance of 1 cd/m2 per solid angle: the cosine, or sine / pi of the angle to the axis.
+/// The lux per unit solid angle that a radiance of 1 cd/m2 from unit direction `to_light` gives: the cosine to the
+/// normal for a planar receiver, the sine of the angle to the axis over pi for a cylindrical one.
 float response_to(const Sensor& sensor, vec3 to_light);
 
-/// A direction drawn in proportion to the response from numbers in [0, 1) and what one such direction stands for:
-/// lux = `lux_per_radiance` x mean radiance.
+/// A direction drawn in proportion to response_to(), from u, v, w in [0, 1). The illuminance is `lux_per_radiance`
+/// times the mean radiance over such directions.
 struct SensedDirection {
     vec3 direction;
     float lux_per_radiance;  // pi for both kinds

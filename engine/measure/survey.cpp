@@ -19,16 +19,17 @@
 namespace lw {
 namespace {
 
-constexpr double photon_share = 0.7;  // of the error asked for that photons may use; the rays have as much
+constexpr double photon_share = 0.7;  // part of the wanted error for the photons; rays get as much, as squares add
 constexpr double min_lux = 1;
 constexpr uint more_rays = 4;
 
-/// Where each sensor of a flat list belongs.
+/// The set and the index in it of a sensor in a list of all.
 struct Place {
     size_t set, sensor;
 };
 
-/// The worst error of a reading over the ambiances, over the value: of the rays, of the photons, and the interval's.
+/// The largest relative errors of a reading over all ambiances: half widths of the 90 % intervals by rays alone, by
+/// photons alone, and in all.
 struct Errors {
     double rays = 0, photons = 0, interval = 0;
 };
@@ -62,7 +63,7 @@ void read_places(const Scene& scene, const RayCaster& caster, const PhotonMap& m
         survey.sets[places[i].set].readings[places[i].sensor] = std::move(readings[i]);
 }
 
-/// Reads again, with more rays, the sensors whose rays alone exceed their share.
+/// Reads those sensors again, with more rays, whose error by rays alone is too large.
 void add_rays(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const SurveySettings& settings,
               Survey& survey) {
     const double of_error = std::sqrt(1 - photon_share * photon_share) * settings.error;
@@ -78,7 +79,8 @@ void add_rays(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
     }
 }
 
-/// Photons with which every sensor's photon error would be its share; the map's own number when it is enough.
+/// The number of photons with which the photon error of every sensor would be small enough; that of the map when it is
+/// enough.
 uint64_t photons_needed(const PhotonMap& map, const SurveySettings& settings, const Survey& survey) {
     double worst = 0;
     for (const Place& at : places_of(survey))
@@ -101,7 +103,7 @@ std::string text_of(const char* format, auto... values) {
     return text;
 }
 
-/// The photons wanted, or as many as the memory allows.
+/// `photons`, or fewer when a bake with so many would take more than `bytes`.
 uint64_t affordable(const Scene& scene, const BakeSettings& before, uint64_t photons, uint64_t bytes) {
     BakeSettings settings = before;
     for (settings.photons = photons; settings.photons > before.photons; settings.photons /= 2)

@@ -1,5 +1,5 @@
-// What a room needs for its task: maintained illuminance and uniformity after EN 12464-1, the edition of 2021 or, where
-// said, that of 2011.
+// Requirements on the light for a task in a room: maintained illuminance and uniformity by EN 12464-1, edition of 2021
+// or, where stated, of 2011.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ struct Task {
     double illuminance;  // lx, maintained, mean of the field
     double uniformity;   // least U0 = minimum / mean
     int edition;         // year of EN 12464-1
-    std::string what;    // with the row or section
+    std::string what;    // description, with the row or section of the standard
 };
 
 const std::vector<Task>& known_tasks();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint64_t sets_of_caustics = 16;
 constexpr uint64_t paths_per_set = 200'000;
-constexpr float caustic_radius = 2e-3f;  // of the scene's size, over which the first set is spread
+constexpr float caustic_radius = 2e-3f;  // of the scene's size: the kernel radius of the first set of caustics
 
 /// Sum and squares of samples.
 struct Sum {
@@ -28,7 +28,8 @@ struct Sum {
     }
 };
 
-/// One path. A cylinder is the mean over all planes that hold its axis: each path takes one of them.
+/// The illuminance by one path. A cylindrical receiver is the mean over all planes that contain its axis, so each path
+/// takes one of them.
 double sample_at(const PathTracer& tracer, const Sensor& sensor, vec3 place, const Caustics* caustics, Rng& rng) {
     if (sensor.response == Response::planar)
         return double(luminance(tracer.irradiance(place, sensor.normal, rng, caustics)));

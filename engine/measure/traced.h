@@ -1,5 +1,5 @@
-// The truth at a sensor: illuminance by the reference path tracer, which shares scene and lamps with the photons but
-// none of their estimators. Caustics of points and suns are traced from the lamps, as lumenwalk-reference does.
+// Reference illuminance at sensors, by the path tracer, which shares scene and lamps with the photons but none of their
+// estimators. Caustics of points and suns are traced from the lamps, as lumenwalk-reference does.
 #pragma once
 #include <span>
 #include <vector>
@@ -20,7 +20,8 @@ struct TraceSettings {
     uint64_t seed = 1;
 };
 
-/// `powers`: RGB power of each lamp (lamp_powers()). Sensors on surfaces stand 1 mm off, as when they are read.
+/// Path traces the illuminance at each sensor. `powers`: RGB power of each lamp (lamp_powers()). Sensors that lie on
+/// surfaces are moved 1 mm off them, as in read_sensors().
 std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& powers,
                                   std::span<const Sensor> sensors, const TraceSettings& settings);
 

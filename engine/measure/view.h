@@ -7,16 +7,18 @@
 
 namespace lw {
 
-/// The scene cut at the plane of a grid and seen along -facing, `band` metres beyond its edges on each side; the first
-/// sensor's column on the left, rows downwards. What the cut goes through is dark.
+/// A plan: the scene cut at the plane of a grid and seen along -facing, to `band` m beyond the grid's edges on each
+/// side, `width` pixels wide. The column of the first sensor is on the left, rows go downwards. Solids that the plane
+/// cuts are dark.
 Rgb8Image plan_view(const Scene& scene, const RayCaster& caster, const SensorSet& grid, float band, int width);
 
-/// Illuminance of what a camera sees, row by row in lux, 0 where it sees nothing: from the photons and shadow rays.
+/// The illuminance at what each pixel of a camera shows, from photons and shadow rays: width x height values in lux,
+/// row by row, 0 where the pixel shows nothing.
 std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
                                      const Camera& camera, const AmbianceFactors& ambiance, int width, int height);
 
-/// Bounds of the colours of such a picture, lx: all it shows but the darkest and the brightest hundredth, three decades
-/// at most; places where nothing is seen do not count.
+/// The lowest and highest lux of the colour scale for such a picture: without the darkest and the brightest hundredth
+/// of the pixels that show something, and three decades wide at most.
 std::pair<double, double> range_of_picture(std::vector<double> lux);
 
 }  // namespace lw

@@ -9,7 +9,9 @@
 namespace lw {
 namespace {
 
-/// The planes that a file of symmetry `symmetry` gives, of its `count` planes every 360 / count degrees or as listed.
+/// The C planes in degrees whose intensities the file gives, of `all` planes of the full circle. `symmetry` is Isym of
+/// the format: 0 none, 1 about the vertical axis, 2 about the plane C0-C180, 3 about C90-C270, 4 about both. Fails
+/// through the reader when the planes do not fit it.
 std::vector<double> given_planes(const std::vector<double>& all, size_t symmetry, NumberReader& reader) {
     const size_t count = all.size();
     if (symmetry == 1) return {0};

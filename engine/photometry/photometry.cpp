@@ -12,10 +12,10 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double degrees = 180 / pi;
-constexpr double largest_difference = 0.1;  // between the flux of a file and what it states
+constexpr double largest_difference = 0.1;  // relative, between the integrated flux of a file and the flux it states
 constexpr double max_candela = 1e12;        // a thousand lighthouses of a thousand million candela
 
-/// A plane the file gives for one that follows by symmetry; C in [0, 360).
+/// The plane of the file that holds the light of plane `c` (degrees, in [0, 360)), by the symmetry of `planes`.
 double folded(const std::vector<double>& planes, double c) {
     const double first = planes.front(), last = planes.back();
     if (planes.size() == 1) return first;
@@ -34,7 +34,8 @@ double folded(const std::vector<double>& planes, double c) {
     return last == 180 && c > 180 ? 360 - c : c;
 }
 
-/// Index of the interval of rising `values` that holds x, and where in it; false outside.
+/// Finds the interval of the rising `values` that holds x: `index` of its lower end, and `share` in [0, 1] from there
+/// to the upper end. Returns false when x is outside of all.
 bool locate(const std::vector<double>& values, double x, size_t& index, double& share) {
     constexpr double rounding = 1e-9;
     if (x < values.front() - rounding || x > values.back() + rounding) return false;

@@ -23,13 +23,13 @@ struct Photometry {
     std::string name;
 };
 
-/// A .ldt file as EULUMDAT, any other as LM-63. Throws Error("FILE: line N: what") for anything malformed, and for a
-/// file whose flux differs by more than 10 % from what it states.
+/// Reads a .ldt file as EULUMDAT and any other as LM-63. Throws Error("FILE: line N: what") for anything malformed, and
+/// for a file whose integrated flux differs by more than 10 % from the flux it states.
 Photometry read_photometry(const std::filesystem::path& path);
 
 /// The same from the text of a file called `name`.
 Photometry parse_photometry(const std::string& text, const std::string& name);
-/// One format, without the check of the flux; `name` begins every message.
+/// The two formats, without the check of the flux. `name` begins every message.
 Photometry parse_lm63(const std::string& text, const std::string& name);
 Photometry parse_eulumdat(const std::string& text, const std::string& name);
 
@@ -39,13 +39,14 @@ double candela_at(const Photometry& photometry, glm::dvec3 direction);
 /// Flux in lm, by integration over the sphere in steps of one degree.
 double flux_of(const Photometry& photometry);
 
-/// Flux over that of the lamps (light output ratio), or 0 for an absolute file.
+/// Light output ratio: flux of the luminaire over that of its lamps; 0 for an absolute file.
 double light_output_ratio(const Photometry& photometry);
 
-/// Flux, strongest intensity, light output ratio and colour temperature in a line.
+/// A line of text for the user: flux, strongest intensity, light output ratio and colour temperature.
 std::string summary_of(const Photometry& photometry);
 
-/// Part of the lamps' light when the luminaire is tilted by this many degrees from straight down.
+/// The factor of the light output when the luminaire is tilted by this many degrees from straight down; 1 when the file
+/// gives none.
 double tilt_factor(const Photometry& photometry, double degrees);
 
 }  // namespace lw

@@ -5,7 +5,7 @@
 namespace lw {
 namespace {
 
-/// Mean of a cell and its neighbours.
+/// Averages each cell of the side x side values with its neighbours.
 std::vector<double> blurred(const std::vector<double>& values) {
     constexpr int side = EmissionGuide::side;
     std::vector<double> result(values.size(), 0);
@@ -19,7 +19,8 @@ std::vector<double> blurred(const std::vector<double>& values) {
     return result;
 }
 
-/// Inverts a cumulative table of `side` entries ending at 1; sets the place within the entry and its probability.
+/// Picks an entry of a cumulative table of `side` entries that ends at 1, by `u` in [0, 1). Sets `within`, where in the
+/// entry `u` lies from 0 to 1, and the entry's probability.
 int pick(const float* cumulative, float u, float& within, float& probability) {
     const float* chosen = std::min(std::upper_bound(cumulative, cumulative + EmissionGuide::side, u),
                                    cumulative + EmissionGuide::side - 1);

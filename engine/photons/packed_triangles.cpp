@@ -5,7 +5,7 @@
 namespace lw {
 namespace {
 
-constexpr float flat_normals = 0.9999995f;  // least cosine to the geometric normal: 1 mrad
+constexpr float flat_normals = 0.9999995f;  // least cosine between shading and geometric normal: 1 mrad
 
 /// True when the material is a Lambert reflector of one colour: most surfaces of most rooms.
 bool is_plain_lambert(const Material& m) {

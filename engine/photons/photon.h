@@ -1,4 +1,4 @@
-// What a light path leaves on a surface.
+// A photon: the record that a light path leaves on a surface.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace lw {
 
-/// As path_caustic, but with bounces of narrow lobes among them: a caustic that is nearly as sharp, and one that rays
-/// along the lobes of glossy surfaces find too.
+/// A path class like path_caustic, but with at least one bounce by a narrow lobe that is no mirror. Such a caustic is
+/// nearly as sharp; rays along the lobes of glossy surfaces find it too.
 constexpr uint path_near_caustic = 3;
 
 inline bool is_caustic(uint path) { return path == path_caustic || path == path_near_caustic; }
@@ -27,7 +27,7 @@ struct Photon {
     uint side() const { return origin >> 16; }  // 0: front of the triangle, 1: back
 };
 
-/// Asks for a photon that will be read soon; it may lie across two lines of cache.
+/// Prefetches a photon that will be read soon. It may lie across two cache lines.
 inline void prefetch(const Photon& photon) {
     __builtin_prefetch(&photon);
     __builtin_prefetch(reinterpret_cast<const char*>(&photon + 1) - 1);
@@ -37,12 +37,12 @@ inline uint pack_origin(uint light, uint path, bool back) {
     return light | path << path_shift | (back ? 1u << 16 : 0u);
 }
 
-/// The energy balance of one lamp, at unit intensity, luminance-weighted.
+/// The energy balance of one lamp at unit intensity. Fluxes are luminances of the RGB flux.
 struct LightBalance {
     uint64_t emitted = 0;  // photons
     uint64_t stored = 0;   // photons
     double flux_out = 0;   // lm leaving the lamp
-    double absorbed = 0;   // lm lost in surfaces (what the material does not reflect, or roulette ends)
+    double absorbed = 0;   // lm absorbed: not reflected by a material, or ended by Russian roulette
     double escaped = 0;    // lm leaving the scene
 };
 

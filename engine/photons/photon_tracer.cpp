@@ -9,13 +9,14 @@
 namespace lw {
 namespace {
 
-constexpr int max_path = 1000;  // ends paths between surfaces that absorb nothing; 0.99^1000 is 4e-5
+constexpr int max_path = 1000;  // most bounces of a path, for surfaces that absorb next to nothing: 0.99^1000 is 4e-5
 constexpr int depth_of_roulette = 64;
-constexpr size_t states_at_once = 8;  // while one waits for a triangle, others move
+constexpr size_t states_at_once = 8;  // paths traced side by side: while one waits for memory, others go on
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
-/// The class of a path of class `path` that goes on by `next`. Shadow rays pass where light goes straight on.
+/// The class of a path of class `path` after the bounce `next`. Light that goes straight on keeps its class, as shadow
+/// rays pass there too.
 uint path_after(uint path, const Scatter& next) {
     if (!next.narrow || path == path_indirect) return path_indirect;
     if (!next.specular || path == path_near_caustic) return path_near_caustic;
@@ -24,17 +25,17 @@ uint path_after(uint path, const Scatter& next) {
 
 }  // namespace
 
-/// A photon on its way.
+/// The state of a path between two surfaces.
 struct PhotonTracer::PathState {
     vec3 origin, direction, flux;
     vec3 medium{0};  // absorption, 1/m
     uint light = 0, path = path_direct;
     int depth = 0;
     Rng rng{0, 0, 0};
-    Hit next{};  // what it meets
+    Hit next{};  // the surface it meets next
 };
 
-/// What it meets. Of a matte surface only position, normals and base colour are known.
+/// The surface that a path has met. Of a matte one only position, normals and base colour are filled in.
 struct PhotonTracer::Bounce {
     Surface surface;
     uint triangle;
@@ -60,7 +61,7 @@ std::array<float, 5> PhotonTracer::numbers(uint light, uint64_t index) const {
 void PhotonTracer::trace(Chunk& chunk, double emitted, size_t most) const {
     std::array<PathState, states_at_once> states;
     size_t count = 0;
-    const auto step_all = [&](const auto& step) {  // the last takes the place of one that ends
+    const auto step_all = [&](const auto& step) {  // a path that ends is replaced by the last one of the array
         for (size_t i = 0; i < count;)
             if (step(states[i]))
                 ++i;
@@ -78,7 +79,7 @@ void PhotonTracer::trace(Chunk& chunk, double emitted, size_t most) const {
     chunk.last = next;
 }
 
-/// A photon that leaves its lamp.
+/// Starts path `index` of the chunk's lamp; `share`: its part of the lamp's flux.
 PhotonTracer::PathState PhotonTracer::start(Chunk& chunk, uint64_t index, float share) const {
     std::array<float, 5> u = numbers(chunk.light, index);
     share *= guides_[chunk.light].warp(u);
@@ -90,7 +91,8 @@ PhotonTracer::PathState PhotonTracer::start(Chunk& chunk, uint64_t index, float 
     return state;
 }
 
-/// Finds what the photon meets; false when nothing. Blends that are passed are lit.
+/// Finds the next surface; returns false when the path leaves the scene. Blended surfaces that it passes get a photon
+/// too.
 bool PhotonTracer::look(Chunk& chunk, PathState& state) const {
     std::vector<Hit> passed;
     const std::optional<Hit> hit = caster_.nearest(state.origin, state.direction, state.rng, &passed);
@@ -108,7 +110,7 @@ bool PhotonTracer::look(Chunk& chunk, PathState& state) const {
     return true;
 }
 
-/// Leaves a photon and sends the rest on; false when the path ends here.
+/// Stores a photon at the surface and sends the path on; returns false when it ends here.
 bool PhotonTracer::bounce(Chunk& chunk, PathState& state) const {
     const Bounce at = bounce_at(state.next, state.direction);
     pass_medium(chunk, state, at);
@@ -119,7 +121,7 @@ bool PhotonTracer::bounce(Chunk& chunk, PathState& state) const {
     return false;
 }
 
-/// The medium on the way takes its part.
+/// Reduces the flux by the absorption of the medium on the way to `at`.
 void PhotonTracer::pass_medium(Chunk& chunk, PathState& state, const Bounce& at) const {
     const vec3 absorption =
         at.matte ? state.medium : absorption_before(surfaces_, at.surface, state.direction, state.medium);
@@ -129,7 +131,7 @@ void PhotonTracer::pass_medium(Chunk& chunk, PathState& state, const Bounce& at)
     state.flux = arriving;
 }
 
-/// Leaves a photon where surfaces show light.
+/// Stores a photon, unless the surface shows no photons (mirrors, clear glass).
 void PhotonTracer::keep(Chunk& chunk, const PathState& state, const Bounce& at) const {
     if (!at.shows_light) return;
     ++chunk.shown;
@@ -152,7 +154,7 @@ PhotonTracer::Bounce PhotonTracer::bounce_at(const Hit& hit, vec3 direction) con
     return at;
 }
 
-/// surface_at() for what a matte bounce needs.
+/// Fills in the members of `s` that a bounce at a matte surface needs, equal to those of surface_at().
 void PhotonTracer::read_matte(const Hit& hit, const PackedTriangle& packed, Surface& s) const {
     const float b1 = hit.barycentrics.x, b2 = hit.barycentrics.y, b0 = 1 - b1 - b2;
     s.position = b0 * packed.corners[0] + b1 * packed.corners[1] + b2 * packed.corners[2];
@@ -166,11 +168,11 @@ void PhotonTracer::read_matte(const Hit& hit, const PackedTriangle& packed, Surf
     if (dot(s.normal, s.geometric_normal) < 0) s.normal = -s.normal;
 }
 
-/// Sends the photon on from a surface, by roulette; false when it ends there.
+/// Samples the direction in which the path goes on; returns false when it ends, by absorption or Russian roulette.
 bool PhotonTracer::leave(Chunk& chunk, PathState& state, const Bounce& at) const {
     if (at.matte) return leave_matte(chunk, state, at);
     const std::optional<Scatter> next = sample_bsdf(surfaces_, at.surface, -state.direction, Carries::flux, state.rng);
-    // Ends what is caught in clear glass.
+    // Beyond this depth roulette ends paths that are caught in clear glass.
     const float max_survival = state.depth < depth_of_roulette || (next && !next->specular) ? 1.0f : 0.95f;
     if (!survives(chunk, state, next ? next->weight : vec3(0), max_survival)) return false;
     state.path = path_after(state.path, *next);
@@ -181,7 +183,8 @@ bool PhotonTracer::leave(Chunk& chunk, PathState& state, const Bounce& at) const
     return true;
 }
 
-/// Roulette: the flux that goes on is `weight` times the arriving one on average. What ends is absorbed.
+/// Russian roulette: the path survives with a probability of at most `max_survival`, so that the flux that goes on is
+/// on average `weight` times the arriving one. The flux of what ends counts as absorbed.
 bool PhotonTracer::survives(Chunk& chunk, PathState& state, vec3 weight, float max_survival) {
     const vec3 reflected = state.flux * weight;
     const float before = largest(state.flux), after = largest(reflected);
@@ -193,7 +196,7 @@ bool PhotonTracer::survives(Chunk& chunk, PathState& state, vec3 weight, float m
     return goes_on;
 }
 
-/// leave() a Lambert reflector of one colour: what sample_bsdf() does there, without asking for other lobes.
+/// leave() for a Lambert reflector of one colour. Does what sample_bsdf() would do there, at less cost.
 bool PhotonTracer::leave_matte(Chunk& chunk, PathState& state, const Bounce& at) const {
     const float side = at.back ? -1.0f : 1.0f;
     const vec3 ng = at.surface.geometric_normal * side, bent = at.surface.normal * side;

@@ -13,30 +13,31 @@
 
 namespace lw {
 
-/// One task: paths [first, last) of a lamp, and what became of them.
+/// One task: the paths [first, last) of a lamp, with the photons they left and their energy balance.
 struct Chunk {
     uint light;
     uint64_t first, last;
     std::vector<Photon> photons;
     double emitted_flux = 0, absorbed = 0, escaped = 0;
-    uint64_t shown = 0;  // hits of surfaces that can show light
+    uint64_t shown = 0;  // hits of surfaces that can show light (not mirrors or clear glass)
 };
 
-/// Luminance of a flux, for balances.
+/// The luminance of an RGB flux, for energy balances.
 double balance_of(vec3 flux);
 
-/// Scene and caster must outlive it. Thread-safe but for guide().
+/// Traces the paths of photons. Scene and caster must outlive it. Thread-safe, except for guide().
 class PhotonTracer {
   public:
     PhotonTracer(const Scene& scene, const RayCaster& caster, const ShootSettings& settings);
 
     void guide(uint light, EmissionGuide guide) { guides_[light] = std::move(guide); }
 
-    /// The five emission numbers of a path, before they are guided: Owen-scrambled Sobol.
+    /// The five numbers in [0, 1) that path `index` of a lamp is emitted with, before the guide changes them:
+    /// Owen-scrambled Sobol.
     std::array<float, 5> numbers(uint light, uint64_t index) const;
 
-    /// Traces the paths of a chunk, a few side by side; each carries 1 / emitted of the lamp's flux. With `most`
-    /// photons no more paths are started; chunk.last becomes the first that was not.
+    /// Traces the paths of a chunk, several at a time; each carries 1 / `emitted` of the lamp's flux. No new path is
+    /// started once the chunk holds `most` photons; chunk.last is then set to the first path that was not started.
     void trace(Chunk& chunk, double emitted, size_t most = std::numeric_limits<size_t>::max()) const;
 
   private:

@@ -17,7 +17,7 @@ constexpr uint64_t chunk_size = 1024;  // paths per task
 constexpr size_t chunks_at_once = 128;
 constexpr uint64_t pilot_paths = 8192;         // per lamp, to learn what it stores
 constexpr uint64_t guide_paths = 131072;       // per sun, to learn where its light enters
-constexpr size_t max_pilot_photons = 100'000;  // of a task: enough to learn from, in a room that absorbs little
+constexpr size_t max_pilot_photons = 100'000;  // of a task of the pilot, for rooms that absorb little
 std::vector<Chunk> split_paths(const std::vector<uint64_t>& emitted, const std::vector<uint64_t>& first) {
     std::vector<Chunk> chunks;
     for (uint light = 0; light < emitted.size(); ++light)
@@ -26,7 +26,8 @@ std::vector<Chunk> split_paths(const std::vector<uint64_t>& emitted, const std::
     return chunks;
 }
 
-/// Learns from where on its disc each sun lights the scene by more than one bounce.
+/// For each sun: learns from which places of its disc light reaches the scene's surfaces after a bounce, and gives the
+/// tracer a guide to them.
 void guide_suns(PhotonTracer& tracer, const Scene& scene) {
     for (uint light = 0; light < scene.lights.size(); ++light) {
         if (scene.lights[light].type != light_directional) continue;
@@ -50,7 +51,7 @@ void guide_suns(PhotonTracer& tracer, const Scene& scene) {
     }
 }
 
-/// How many paths each lamp gets so that `wanted` photons are stored in all.
+/// The number of paths of each lamp with which about `wanted` photons are stored in all, from a pilot run.
 std::vector<uint64_t> plan_emission(const PhotonTracer& tracer, const Scene& scene, uint64_t wanted) {
     const size_t count = scene.lights.size();
     std::vector<Chunk> pilots = split_paths(std::vector<uint64_t>(count, pilot_paths), std::vector<uint64_t>(count, 0));
@@ -74,7 +75,8 @@ std::vector<uint64_t> plan_emission(const PhotonTracer& tracer, const Scene& sce
     sum = 0;
     for (size_t light = 0; light < count; ++light)
         sum += useful[light] = yield[light] > 0 ? std::max(useful[light], floor) : 0;
-    std::vector<uint64_t> emitted(count, pilot_paths);  // a lamp without yield: enough for its energy balance
+    std::vector<uint64_t> emitted(
+        count, pilot_paths);  // a lamp whose pilot stored nothing keeps this many, for its energy balance
     for (size_t light = 0; light < count; ++light)
         if (yield[light] > 0)
             emitted[light] = uint64_t(
@@ -93,8 +95,8 @@ void add_to(LightBalance& balance, const Chunk& chunk) {
     balance.escaped += chunk.escaped;
 }
 
-/// Appends the photons of some tasks in the order of their triangles: what is done with them later meets those of a
-/// surface one after the other in memory. Many triangles share a bucket.
+/// Appends the photons of some tasks, sorted by triangle, so that later steps find the photons of a surface side by
+/// side in memory. A counting sort with at most 65,536 buckets; in large scenes several triangles share one.
 void append_by_triangle(std::span<const Chunk> chunks, size_t triangles, std::vector<Photon>& records) {
     constexpr size_t max_buckets = 65536;
     const size_t per_bucket = triangles / max_buckets + 1;
@@ -108,8 +110,8 @@ void append_by_triangle(std::span<const Chunk> chunks, size_t triangles, std::ve
         for (const Photon& photon : chunk.photons) records[next[photon.triangle / per_bucket]++] = photon;
 }
 
-/// Tasks on their way: while some are traced, the photons of those before are appended. Their buffers are used again
-/// and again, as fresh memory costs time.
+/// Collects the photons of batches of tasks. While one batch is traced, the photons of the batch before are appended.
+/// The buffers of the tasks are reused, because fresh memory costs time.
 class PhotonCollector {
   public:
     PhotonCollector(const PhotonTracer& tracer, size_t triangles, Photons& photons, Progress& progress)

@@ -8,9 +8,9 @@
 namespace lw {
 
 struct ShootSettings {
-    uint64_t photons = 1'000'000;  // to store, within about 1 %
+    uint64_t photons = 1'000'000;  // photons to store in all; the result has within about 1 % of that
     uint64_t seed = 1;
-    bool direct_in_photons = false;  // store the photons that come straight from a lamp too
+    bool direct_in_photons = false;  // also store photons straight from a lamp; else shadow rays bring that light
 };
 
 /// Traces photons of all lamps. Every photon is a function of (seed, lamp, index): the result is the same at any thread

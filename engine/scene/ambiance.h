@@ -31,13 +31,14 @@ struct LampPresets {
     std::map<std::string, std::string> photometry;           // lamp -> file, relative to the folder of the scene
 };
 
-/// SCENE.glb -> SCENE.ambiances.json.
+/// The default file of a scene's ambiances: SCENE.ambiances.json beside SCENE.glb.
 std::filesystem::path default_ambiances_path(const std::filesystem::path& scene);
 
-/// Empty when there is no such file. Throws Error naming file, ambiance and lamp for anything malformed.
+/// Reads the file; the presets is empty when there is no such file. Throws Error naming file, ambiance and lamp for
+/// anything malformed.
 LampPresets load_lamp_presets(const std::filesystem::path& path);
 
-/// Throws Error naming the file when it cannot be written.
+/// Writes the presets as JSON. Throws Error naming the file when it cannot be written.
 void save_lamp_presets(const std::filesystem::path& path, const LampPresets& presets);
 
 }  // namespace lw

@@ -1,4 +1,5 @@
-// The hierarchy that shadow rays in compute traverse, as plain arrays (shaders/bvh.h). Built by trace/build_bvh.
+// The bounding volume hierarchy that rays in compute shaders traverse, as plain arrays (shaders/bvh.h). Built by
+// trace/build_bvh.
 #pragma once
 #include <vector>
 
@@ -6,7 +7,7 @@
 
 namespace lw {
 
-/// Empty when no shadow ray is ever traced.
+/// Both arrays are empty when no ray is ever traced.
 struct Bvh {
     std::vector<BvhNode> nodes;   // depth first
     std::vector<uint> triangles;  // triangle ids in leaf order, with bvh_see_through

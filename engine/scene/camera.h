@@ -9,10 +9,12 @@ namespace lw {
 /// The camera of this name (the first one when empty). Throws Error listing the names.
 const Camera& find_camera(const Scene& scene, const std::string& name);
 
-/// Unit direction through pixel position (x, y), in pixels from the top left corner; pixel centres at .5.
+/// Unit direction from the camera through the position (x, y) in a picture of width x height pixels. Positions count
+/// pixels from the top left corner; pixel centres are at .5.
 vec3 camera_direction(const Camera& camera, float x, float y, int width, int height);
 
-/// What a pixel position sees lies on this ray, which begins at the near plane (glTF 2.0, znear).
+/// The ray on which everything lies that a position of the picture shows. It begins at the near plane (glTF 2.0,
+/// znear).
 struct CameraRay {
     vec3 origin, direction;
 };

@@ -39,7 +39,8 @@ class Hasher {
     uint64_t state_ = 0xcbf29ce484222325ull;
 };
 
-/// An object's emission as a share of its lamp's, rounded so that a dimmed lamp gives the same share.
+/// The emission of an object divided by the intensity of its lamp, per channel. Rounded, so that a file with the lamp
+/// dimmed has the same hash.
 uvec3 emission_share(const Scene& scene, const Object& object) {
     uvec3 share(0);
     if (object.light < 0) return share;

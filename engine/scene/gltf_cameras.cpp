@@ -28,7 +28,8 @@ void set_perspective(const tinygltf::PerspectiveCamera& source, Camera& camera) 
     if (source.znear > 0) camera.near = float(std::clamp(source.znear, 1e-15, 10.0));
 }
 
-/// A perspective that shows at the middle of the scene what the parallel view shows everywhere.
+/// Sets a perspective whose picture spans, at the distance of the scene's middle, the height that the orthographic
+/// camera shows.
 void set_orthographic(const tinygltf::OrthographicCamera& source, const Scene& scene, Camera& camera) {
     const double height = std::abs(source.ymag), width = std::abs(source.xmag);
     const vec3 middle = (scene.bounds[0] + scene.bounds[1]) * 0.5f;
@@ -37,7 +38,8 @@ void set_orthographic(const tinygltf::OrthographicCamera& source, const Scene& s
     if (height > 0 && width > 0) camera.aspect = float(std::clamp(width / height, 1e-3, 1e3));
 }
 
-/// Facing a scene without depth, such as a floor or a wall, whose side `flat` is the thin one.
+/// Points the camera at a flat scene, such as a single floor or wall. `size` is that of the bounds, m; `flat` the axis
+/// along which the scene is thin.
 void face_flat_scene(vec3 size, int flat, Camera& camera) {
     vec3 back(0);
     back[flat] = 1;
@@ -47,7 +49,8 @@ void face_flat_scene(vec3 size, int flat, Camera& camera) {
     camera.rotation = mat3(right, cross(back, right), back);
 }
 
-/// In the middle of one end of the scene, at eye height (half way up in something lower), looking along its length.
+/// The camera for a file without one: in the middle of one end of the scene, at eye height (half way up in a low
+/// scene), looking along its length.
 Camera default_camera(const Scene& scene) {
     const vec3 low = scene.bounds[0], size = scene.bounds[1] - scene.bounds[0];
     Camera camera;

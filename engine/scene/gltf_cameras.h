@@ -7,7 +7,8 @@
 
 namespace lw {
 
-/// Fills cameras: by the camera's own name when a single node places it, else by the node's. Bounds must be known.
+/// Fills scene.cameras. A camera has its own name when a single node places it, else the name of the node. scene.bounds
+/// must be set.
 void load_cameras(GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene);
 
 }  // namespace lw

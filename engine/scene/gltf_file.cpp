@@ -25,7 +25,7 @@ std::vector<unsigned char> read_bytes(const std::filesystem::path& path) {
     std::vector<unsigned char> bytes(size_t(size) + 1, 0);
     stream.seekg(0).read(reinterpret_cast<char*>(bytes.data()), size);
     if (!stream) throw Error(path.string() + ": cannot be read");
-    bytes.pop_back();  // the zero stays behind the last byte: tinygltf prints a few bytes of bad JSON
+    bytes.pop_back();  // the zero stays in memory: tinygltf reads a few bytes beyond bad JSON
     return bytes;
 }
 
@@ -121,7 +121,7 @@ void check_uris(const GltfFile& file, const Json& root, const char* kind) {
     }
 }
 
-/// What must be known before tinygltf decodes anything: it checks neither extensionsRequired nor where URIs lead.
+/// Checks that tinygltf leaves out, before it decodes anything: extensionsRequired, and that URIs stay in the folder.
 void check_before_parsing(GltfFile& file, const Json& root) {
     const auto asset = root.find("asset");
     const bool has_version =
@@ -140,7 +140,7 @@ void check_before_parsing(GltfFile& file, const Json& root) {
     check_uris(file, root, "images");
 }
 
-/// Whether tinygltf takes the entry; it refuses a whole file for one image without bytes.
+/// True when tinygltf can read the bytes of this image. It refuses the whole file for one image that it cannot.
 bool has_readable_source(const Json& image, size_t view_count) {
     const bool has_uri = image.contains("uri"), has_view = image.contains("bufferView");
     if (has_uri == has_view) return false;
@@ -152,8 +152,8 @@ bool has_readable_source(const Json& image, size_t view_count) {
     return !tinygltf::IsDataURI(uri) || tinygltf::DecodeDataURI(&bytes, mime, uri, 0, false);
 }
 
-/// Gives unreadable images bytes that are no picture, so that they end as any picture that cannot be decoded.
-/// True when there were some.
+/// Replaces the source of every unreadable image by a few bytes that are no picture; later it is treated like any
+/// picture that cannot be decoded. Returns true when there was one.
 bool replace_unreadable_images(Json& root) {
     const auto images = root.find("images"), views = root.find("bufferViews");
     if (images == root.end() || !images->is_array()) return false;
@@ -168,7 +168,7 @@ bool replace_unreadable_images(Json& root) {
     return replaced;
 }
 
-/// The file with another JSON text.
+/// The bytes of the glTF file with its JSON replaced by `text`.
 std::vector<unsigned char> with_json(const std::vector<unsigned char>& bytes, std::string text) {
     if (!is_binary(bytes)) return {text.begin(), text.end()};
     text.resize((text.size() + 3) / 4 * 4, ' ');
@@ -189,7 +189,7 @@ bool keep_encoded(tinygltf::Image* image, const int, std::string*, std::string*,
     return true;
 }
 
-/// What tinygltf reads beside the file itself.
+/// The folder of the glTF file, and the files that tinygltf read from it.
 struct ExternalFiles {
     std::string folder;
     std::vector<std::filesystem::path> read;
@@ -200,7 +200,7 @@ bool exists_in_folder(const std::string& path, void* files) {
     return path.starts_with(static_cast<const ExternalFiles*>(files)->folder) && std::filesystem::is_regular_file(path);
 }
 
-/// tinygltf's own version hands the name to wordexp(3), which runs `$(...)`.
+/// Returns the path unchanged. The default callback of tinygltf passes it to wordexp(3), which would run `$(...)`.
 std::string same_path(const std::string& path, void*) { return path; }
 
 bool read_external(std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void* files) {
@@ -214,14 +214,14 @@ bool read_external(std::vector<unsigned char>* bytes, std::string* error, const 
     }
 }
 
-/// tinygltf tells in several lines what it found.
+/// Makes one line of tinygltf's messages, which have several.
 std::string shortened(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text.size() > 300 ? text.substr(0, 300) + "..." : text;
 }
 
-/// Names are printed and written into tables, each in one line.
+/// Removes line ends from the names of all elements, which are printed and written into tables.
 template <class... Lists>
 void clean_names(Lists&... lists) {
     const auto clean = [](auto& list) {

@@ -13,9 +13,9 @@
 
 namespace lw {
 
-/// Largest extent of a scene; farther, distances to powers overflow the floats of rays and estimates.
+/// Largest extent of a scene. Beyond it, powers of distances overflow the floats of rays and estimates.
 constexpr double max_metres = 1e9;
-/// Most cd, lx and cd/m2 of a lamp, which leaves the squares of errors within floats.
+/// Largest intensity of a lamp, in cd, lx or cd/m2. Squares of errors then still fit into floats.
 constexpr float max_strength = 1e15f;
 
 struct GltfFile {
@@ -34,7 +34,8 @@ struct GltfFile {
 /// Image::image. Throws Error for a truncated file, an unsupported extensionsRequired entry, a URI out of the folder.
 GltfFile open_gltf(const std::filesystem::path& path);
 
-/// Refuses what would not fit into memory, before it is asked for: "WHAT take 5 GB, there are 4 GB".
+/// Throws Error("NAME: WHAT take 5 GB, there are 4 GB") when `bytes` are more than the memory available. Called before
+/// a large allocation.
 void check_memory(const GltfFile& file, const std::string& what, uint64_t bytes);
 
 /// The path that a URI of the file names, relative to its folder. Throws Error for one that leaves the folder.

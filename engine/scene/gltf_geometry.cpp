@@ -19,9 +19,11 @@ struct PlacedMesh {
     glm::dmat4 world;
 };
 
-/// Before it is asked for: a short file can name one long accessor many times.
+/// Throws Error when the scene would not fit into memory. A short file can name one long accessor many times, so this
+/// is checked before anything is decoded.
 void check_counts(const GltfFile& file, uint64_t vertices, uint64_t triangles) {
-    constexpr uint64_t bytes_per_vertex = 72, bytes_per_triangle = 16;  // of Scene, all optional arrays present
+    constexpr uint64_t bytes_per_vertex = 72,
+                       bytes_per_triangle = 16;  // size in a Scene when all optional arrays are present
     check_memory(file, "its " + std::to_string(triangles) + " triangles",
                  vertices * bytes_per_vertex + triangles * bytes_per_triangle);
 }
@@ -94,7 +96,8 @@ void find_origin(const GltfFile& file, const std::vector<PlacedMesh>& placed, Sc
     scene.triangle_objects.reserve(triangles);
 }
 
-/// The optional array grows once any primitive has the attribute; vertices without it hold `otherwise`.
+/// Appends an optional attribute of one primitive. The scene's array stays empty until the first primitive that has the
+/// attribute; vertices without it hold `otherwise`.
 template <class T>
 void append_optional(std::vector<T>& all, const std::vector<T>& own, size_t first, size_t count, T otherwise) {
     if (all.empty() && own.empty()) return;

@@ -43,7 +43,7 @@ Light punctual_light(const GltfFile& file, const tinygltf::Light& source, const 
     return light;
 }
 
-/// The name of the node above, "" without one.
+/// The name of the parent node, or "" at the root.
 std::string group_of(const GltfFile& file, const PlacedNode& at) {
     return at.parent < 0 ? "" : name_of(file, size_t(at.parent), "group");
 }
@@ -62,7 +62,8 @@ void add_punctual(const GltfFile& file, const PlacedNode& at, Scene& scene) {
     scene.light_groups.push_back(group_of(file, at));
 }
 
-/// Adds a triangle to a mesh light: its area, and its share of the mean position and direction.
+/// Adds a triangle to a mesh light: its area, and its area-weighted position and direction to the sums `moment` and
+/// `facing`.
 void add_emitter(uint triangle, const Scene& scene, Light& light, glm::dvec3& moment, glm::dvec3& facing) {
     const uvec3 t = scene.triangles[triangle];
     const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);

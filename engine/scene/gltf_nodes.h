@@ -20,7 +20,7 @@ std::vector<PlacedNode> place_nodes(const GltfFile& file);
 /// World matrices of the instances of a mesh node: one, or those of EXT_mesh_gpu_instancing.
 std::vector<glm::dmat4> instances_of(const GltfFile& file, const PlacedNode& placed);
 
-/// The node's name, or `otherwise` with its number.
+/// The node's name; when it has none, `otherwise` followed by the node's index.
 std::string name_of(const GltfFile& file, size_t node, const std::string& otherwise);
 
 }  // namespace lw

@@ -55,7 +55,8 @@ std::vector<uvec3> read_triangles(GltfFile& file, const tinygltf::Primitive& pri
     return triangles_of(corners, mode);
 }
 
-/// Source vertex of every kept vertex; renumbers the triangles. Flat: each corner its own vertex.
+/// Chooses the vertices to keep and renumbers the triangles to match. Returns the index in the file of each kept
+/// vertex. With `flat` every corner of a triangle becomes a vertex of its own.
 std::vector<uint32_t> keep_vertices(std::vector<uvec3>& triangles, size_t vertex_count, bool flat) {
     constexpr uint32_t unseen = ~0u;
     std::vector<uint32_t> kept, place(flat ? 0 : vertex_count, unseen);
@@ -81,7 +82,7 @@ vec3 face_normal(const LocalPrimitive& p, uvec3 t) {
     return length > 0 && std::isfinite(length) ? vec3(n / length) : vec3(0, 1, 0);
 }
 
-/// Unit normals; where there is none that can be used, that of a face at the vertex.
+/// Makes all normals unit length. A vertex whose normal is zero or not finite gets the normal of a triangle at it.
 void repair_normals(LocalPrimitive& p) {
     p.normals.resize(p.positions.size(), vec3(0));
     const auto usable = [](vec3 n) { return is_finite(n) && dot(n, n) > 1e-12f && dot(n, n) < 1e12f; };
@@ -137,7 +138,8 @@ void read_optional(const AttributeReader& reader, const std::vector<uint32_t>& k
     if (needs.uv0) p.uv0 = reader.gather<2>("TEXCOORD_0", 2, kept, vertex_count);
     if (needs.uv1) p.uv1 = reader.gather<2>("TEXCOORD_1", 2, kept, vertex_count);
     p.colors = reader.gather<4>("COLOR_0", 3, kept, vertex_count);
-    for (vec4& c : p.colors) c = clamp(c, vec4(0), vec4(1));  // they are factors: more would make light
+    for (vec4& c : p.colors)
+        c = clamp(c, vec4(0), vec4(1));  // they multiply reflectances: above 1 they would create light
     const Material m = p.material < 0 ? default_material() : scene.materials[size_t(p.material)];
     if (m.normal_texture.texture < 0) return;
     p.tangents = reader.gather<4>("TANGENT", 4, kept, vertex_count);

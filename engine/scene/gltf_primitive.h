@@ -10,7 +10,7 @@ namespace lw {
 
 /// Local-space triangles; optional arrays are empty or as long as `positions`. Only referenced vertices are kept.
 struct LocalPrimitive {
-    int material = -1;  // of the file, -1: default
+    int material = -1;  // index in the file, -1: the default material
     std::vector<vec3> positions, normals;
     std::vector<vec2> uv0, uv1;
     std::vector<vec4> colors, tangents;

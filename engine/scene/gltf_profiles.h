@@ -5,10 +5,12 @@
 
 namespace lw {
 
-/// Adds the lamp of a node that has one. Throws Error for a bad reference or file.
+/// Adds the lamp of a node that has this extension; does nothing for other nodes. Throws Error for a bad reference or
+/// file.
 void add_profile_light(GltfFile& file, const PlacedNode& at, Scene& scene);
 
-/// C0 of a lamp at a node: its x axis, made perpendicular to `direction`.
+/// The unit direction of plane C0 for a lamp at a node: the node's x axis, made perpendicular to `direction`, the
+/// lamp's aim.
 vec3 across_of(const PlacedNode& at, vec3 direction);
 
 }  // namespace lw

@@ -11,12 +11,12 @@ using Json = nlohmann::json;
 constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double above_zero = std::numeric_limits<double>::min();
 
-/// A number, or an array of some, at a place below an element of the file.
+/// A number, or an array of numbers, that elements of one kind may have, with its allowed range.
 struct Quantity {
     const char* place;  // JSON pointer
     size_t length;      // of the array; 0: a single number
     double least, most;
-    bool is_refused = false;  // out of range; else the nearest is taken
+    bool is_refused = false;  // true: out of range is an error; false: the nearest value in range is taken
 };
 
 constexpr Quantity of_materials[] = {
@@ -29,7 +29,7 @@ constexpr Quantity of_materials[] = {
     {"/extensions/KHR_materials_specular/specularFactor", 0, 0, 1},
     {"/extensions/KHR_materials_specular/specularColorFactor", 3, 0, endless},
     {"/extensions/KHR_materials_transmission/transmissionFactor", 0, 0, 1},
-    {"/extensions/KHR_materials_ior/ior", 0, -endless, endless},  // what it may be is said by who reads it
+    {"/extensions/KHR_materials_ior/ior", 0, -endless, endless},  // its range is checked where it is read
     {"/extensions/KHR_materials_volume/thicknessFactor", 0, -endless, endless},
     {"/extensions/KHR_materials_volume/attenuationDistance", 0, -endless, endless},
     {"/extensions/KHR_materials_volume/attenuationColor", 3, 0, 1},
@@ -55,7 +55,7 @@ std::string range_of(const Quantity& q) {
     return text;
 }
 
-/// The last word of the place.
+/// The name of the quantity: the last word of its JSON pointer.
 std::string name_of(const Quantity& q) { return std::string(q.place).substr(std::string(q.place).rfind('/') + 1); }
 
 void check(GltfFile& file, const Json& element, const std::string& where, const Quantity& q) {

@@ -1,4 +1,4 @@
-// The numbers of materials, lamps and cameras: of the type and in the range that glTF gives them.
+// Checks that the numbers of materials, lamps and cameras have the type and range that glTF prescribes.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
@@ -6,8 +6,8 @@
 
 namespace lw {
 
-/// Throws Error for a number of the wrong type or length, which the parser would silently take for its default, and for
-/// light that would be negative; warns of factors out of range, of which the nearest that is possible is taken.
+/// Throws Error for a value of the wrong type or length, for which the parser would silently use the default, and for
+/// negative light. Warns about other factors out of range; the nearest allowed value is used for them.
 void check_ranges(GltfFile& file, const nlohmann::json& root);
 
 }  // namespace lw

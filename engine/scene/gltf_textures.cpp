@@ -11,7 +11,7 @@
 namespace lw {
 namespace {
 
-constexpr uint64_t decoding_bytes = 12;  // per pixel while a picture is decoded: what is unpacked, RGBA and its copy
+constexpr uint64_t decoding_bytes = 12;  // per pixel while decoding: the unpacked picture, its RGBA form and a copy
 
 uint wrap_of(int mode) {
     if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return wrap_clamp;
@@ -52,7 +52,7 @@ std::optional<tinygltf::Image> decode(std::span<const unsigned char> bytes) {
 }
 
 uint packed_texel(const tinygltf::Image& image, size_t texel) {
-    const size_t step = size_t(image.bits / 8), high = step - 1;  // of 16-bit channels the high byte
+    const size_t step = size_t(image.bits / 8), high = step - 1;  // the high byte of a 16-bit channel
     uint bits = 0;
     for (size_t c = 0; c < 4; ++c) bits |= uint(image.image[(texel * 4 + c) * step + high]) << (8 * c);
     return bits;

@@ -13,7 +13,8 @@ class TextureLoader {
   public:
     TextureLoader(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
 
-    /// The slot for a material's reference; texture = -1 (with a warning when an image was meant) if there is none.
+    /// The slot for a texture that a material refers to. `srgb`: its colours are sRGB encoded. The slot has texture =
+    /// -1 when the material names none, or, with a warning, when the image cannot be used.
     TextureSlot slot(const tinygltf::TextureInfo& reference, bool srgb, const std::string& where);
 
   private:
@@ -29,7 +30,7 @@ class TextureLoader {
     std::map<std::tuple<int, int, bool>, int> textures_;  // by image, sampler, sRGB
 };
 
-/// A reference to a texture stored in an extension object.
+/// The reference `key` to a texture in the JSON object of an extension.
 tinygltf::TextureInfo texture_info(const tinygltf::Value& extension, const std::string& key);
 
 TextureSlot no_texture();

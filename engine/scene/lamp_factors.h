@@ -13,14 +13,17 @@ size_t find_lamp(const Scene& scene, const std::string& name, const std::string&
 /// a temperature outside 1,000 to 15,000 K.
 std::vector<vec3> parse_factors(const Scene& scene, const std::vector<std::string>& texts);
 
-/// What the setting of a lamp of this intensity multiplies it by, by colour. Throws Error as filter_to_temperature().
+/// The factor, per RGB channel, by which a setting multiplies the intensity of a lamp. `intensity` is the lamp's own,
+/// needed for the colour of a temperature. Throws Error as filter_to_temperature().
 vec3 factor_of(const LampSetting& setting, vec3 intensity);
 
-/// One factor per lamp of the scene and channel. Throws Error naming a lamp that the scene does not have.
+/// The factors of an ambiance: one RGB per lamp of the scene, 1 for lamps it does not name. Throws Error naming a lamp
+/// that the scene does not have.
 std::vector<vec3> lamp_factors(const Scene& scene, const Ambiance& ambiance);
 
-/// Factors of the ambiance called `name` of the scene's file (none when empty) times those of "LAMP=FACTOR" texts.
-/// Throws Error listing the ambiances, or as lamp_factors() and parse_factors().
+/// The factors that a command line asks for, one RGB per lamp: those of the ambiance `name` from the scene's default
+/// file (all 1 when `name` is empty), times those of the "LAMP=FACTOR" texts `powers`. Throws Error listing the
+/// ambiances when there is none of this name, or as lamp_factors() and parse_factors().
 std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, const std::vector<std::string>& powers);
 
 }  // namespace lw

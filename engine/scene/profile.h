@@ -1,4 +1,5 @@
-// Lamps with a measured light distribution: a table in the array of texels (shaders/profile.glsl) beside a point.
+// Lamps with a measured light distribution: a point lamp with a table of intensities, which lies in the scene's array
+// of texels (shaders/profile.glsl).
 #pragma once
 #include <string>
 #include <vector>
@@ -8,20 +9,20 @@
 
 namespace lw {
 
-/// Gives a lamp that is a point the distribution of a luminaire: it aims along the lamp's direction with C0 towards
-/// `across`. Its intensity becomes the file's strongest candela in the lamp's own colour, or, when that is white, in
-/// that of the colour temperature the file gives; dimmed for its tilt. The content hash is left to the caller.
+/// Gives a point or spot lamp the distribution of a luminaire, which aims along light.direction with plane C0 towards
+/// light.across. The lamp's intensity becomes the largest candela of the file, times the factor for its tilt. Its
+/// colour stays; a white lamp gets the colour temperature that the file states. The caller renews scene.content_hash.
 void attach_photometry(const Photometry& photometry, Light& light, Scene& scene);
 
-/// Factors by colour that give a lamp the colour of a black body of this many kelvin at its own luminance. Throws Error
-/// for a lamp that lacks a colour which that light has.
+/// RGB factors that give a lamp of this intensity the colour of a black body at `kelvin` and keep its luminance. Throws
+/// Error when the lamp emits nothing in a channel that the black body needs.
 vec3 filter_to_temperature(vec3 intensity, double kelvin);
 
-/// Linear Rec. 709 of luminance 1 of a black body of this many kelvin, 1,000 to 15,000 (Krystek 1985).
+/// The colour of a black body at `kelvin` (1,000 to 15,000) as linear Rec. 709 of luminance 1 (Krystek 1985).
 vec3 color_of_temperature(double kelvin);
 
-/// The scene with the files of "LAMP=FILE" texts on its point and spot lamps. Throws Error for an unknown lamp, one
-/// that is a mesh or a sun, and a bad file.
+/// Attaches photometric files to point and spot lamps, as the "LAMP=FILE" texts say, and returns the scene. Throws
+/// Error for an unknown lamp, a mesh lamp or sun, and a bad file.
 Scene with_photometry(Scene scene, const std::vector<std::string>& texts);
 
 }  // namespace lw

@@ -22,7 +22,7 @@ T catmull_rom(const T& a, const T& b, const T& c, const T& d, double t) {
                   (3.0 * b - a - 3.0 * c + d) * (t * t * t));
 }
 
-/// The angle nearest to `before` that looks the same way.
+/// `angle_deg` plus a multiple of 360, so that it is nearest to `before_deg`.
 double unwrapped(double angle_deg, double before_deg) {
     return before_deg + std::remainder(angle_deg - before_deg, 360.0);
 }

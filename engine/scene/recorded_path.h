@@ -1,5 +1,5 @@
-// Recorded walks: moments of a camera in a JSON file, and the view at any time between them. Files hold world positions
-// in metres and angles in degrees.
+// Recorded walks: a JSON file with the place and direction of a camera at some times, and the view at any time between.
+// Files hold world positions in metres and angles in degrees.
 #pragma once
 #include <filesystem>
 #include <vector>
@@ -23,11 +23,12 @@ struct Path {
     double seconds() const { return keys.back().time - keys.front().time; }
 };
 
-/// Throws Error naming file and key for anything malformed: at least one key, times that rise, finite numbers.
+/// Reads a walk. Throws Error naming file and key unless there is at least one key, times rise and numbers are finite.
 Path load_path(const std::filesystem::path& path);
 void save_path(const std::filesystem::path& file, const Path& path);
 
-/// The view `seconds` after the start, between the keys (Catmull-Rom), beyond the ends the ends.
+/// The view `seconds` after the start, interpolated between the keys (Catmull-Rom). Before the first and after the last
+/// key it is that of this key.
 Camera camera_on(const Path& path, double seconds, const Scene& scene);
 
 }  // namespace lw

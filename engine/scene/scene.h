@@ -50,12 +50,12 @@ struct Scene {
 
     std::array<vec3, 2> bounds{vec3(0), vec3(0)};  // min, max of positions
     uint64_t content_hash = 0;          // geometry, materials, lamps' places and shapes; not their powers or cameras
-    std::vector<std::string> warnings;  // each said once: what was ignored or replaced
-    std::vector<std::filesystem::path> files;  // what it was read from: no output may take their place
+    std::vector<std::string> warnings;  // what the loader ignored or replaced, each message once
+    std::vector<std::filesystem::path> files;  // all files it was read from: outputs must not overwrite them
 
     /// Length of the diagonal of the bounds, m.
     float size() const { return length(bounds[1] - bounds[0]); }
-    /// A few units of float precision at the largest coordinate, m: what rays start above their surface.
+    /// How far above their surface rays start, m: a few units of float precision at the largest coordinate.
     float ray_epsilon() const {
         const vec3 reach = max(abs(bounds[0]), abs(bounds[1]));
         return 4e-6f * max(max(reach.x, reach.y), max(reach.z, 1e-30f));

@@ -10,7 +10,7 @@ struct Box {
     vec3 low, high;
 };
 
-/// Thread-safe for queries.
+/// A set of boxes that is built once. Queries are thread-safe.
 class BoxSearch {
   public:
     explicit BoxSearch(std::vector<Box> boxes);
@@ -28,11 +28,11 @@ class BoxSearch {
     }
 
   private:
-    /// Nodes lie depth first: the children of one follow it, up to `next`.
+    /// Nodes are stored depth first: the subtree of a node follows it and ends before node `next`.
     struct Node {
         Box bounds;
         uint next = 0;
-        uint first = 0, last = 0;  // of order_, in a leaf
+        uint first = 0, last = 0;  // range [first, last) in order_; empty in an inner node
     };
 
     static bool overlap(const Box& a, const Box& b) {

@@ -8,8 +8,8 @@
 namespace lw {
 namespace {
 
-constexpr float narrow_roughness = 0.12f;  // its lobe is some 2 degrees wide
-constexpr float min_share = 0.1f;  // of samples for the lobes of rough glass, whose Fresnel factor varies by facet
+constexpr float narrow_roughness = 0.12f;  // a lobe at this roughness is some 2 degrees wide
+constexpr float min_share = 0.1f;  // least weight in the choice of a lobe of rough glass, whose Fresnel factor varies
 
 float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
@@ -75,7 +75,7 @@ float refracted_pdf(const SurfaceReader& reader, const Lobes& l, vec3 to_view, v
     return density * l.eta_light * l.eta_light * lh / std::max(root * root, 1e-12f);
 }
 
-/// Density of `to_light` over all lobes that are not specular.
+/// The pdf (per solid angle) of `to_light`, summed over all lobes that are not specular.
 float smooth_pdf(const SurfaceReader& reader, const Surface& s, const Lobes& l, vec3 to_view, vec3 to_light) {
     const float nl = dot(l.n, to_light);
     if (nl < 0) {
@@ -89,7 +89,7 @@ float smooth_pdf(const SurfaceReader& reader, const Surface& s, const Lobes& l, 
     return pdf;
 }
 
-/// A direction of the transmission lobe about the facet normal `h`; nullopt when the facet reflects totally.
+/// The refracted direction at a microfacet of normal `h`; nullopt when it reflects totally.
 std::optional<vec3> transmitted(const SurfaceReader& reader, const Surface& s, const Lobes& l, vec3 to_view, vec3 h) {
     const float cosine = dot(h, to_view);
     if (s.flags & material_thin) {
@@ -133,7 +133,7 @@ std::optional<Scatter> sample_smooth(const SurfaceReader& reader, const Surface&
                    false,      choice < l.p_transmit + l.p_glossy && s.roughness < narrow_roughness};
 }
 
-/// What a photon's weight has over that of a path from the eye (Veach 1997, equations 5.13 and 5.18).
+/// The factor between the weight of a photon and that of a path from the eye (Veach 1997, equations 5.13 and 5.18).
 float adjoint_factor(const Lobes& l, vec3 to_view, vec3 direction) {
     const bool through = dot(direction, l.ng) < 0;
     const float index = through ? l.eta_light / l.eta_view : 1.0f;
@@ -153,7 +153,8 @@ std::optional<Scatter> sample_bsdf(const SurfaceReader& reader, const Surface& s
     const bool specular = through ? l.delta_glass : glossy && l.delta;
     std::optional<Scatter> next =
         specular ? sample_specular(reader, s, l, to_view, through) : sample_smooth(reader, s, l, to_view, choice, rng);
-    if (!next || (dot(next->direction, l.ng) < 0) != through) return std::nullopt;  // no leaks at bent normals
+    if (!next || (dot(next->direction, l.ng) < 0) != through)
+        return std::nullopt;  // no light leaks through the surface where shading normals are bent
     if (carries == Carries::flux) next->weight *= adjoint_factor(l, to_view, next->direction);
     return next;
 }

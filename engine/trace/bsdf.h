@@ -8,18 +8,18 @@
 
 namespace lw {
 
-/// What a path carries from `to_view` on: radiance is gathered (a path from the eye), flux is spread (a photon).
-/// They differ where light refracts, by the square of the index, and at bent shading normals (Veach 1997, chapter 5).
+/// What a path carries: radiance, for a path from the eye, or flux, for a photon. The weights differ where light
+/// refracts, by the square of the index, and where the shading normal is not the geometric one (Veach 1997, chapter 5).
 enum class Carries { radiance, flux };
 
-/// One sampled continuation of a path.
+/// A sampled direction in which a path goes on.
 struct Scatter {
     vec3 direction;  // unit, away from the surface
     vec3 weight;     // BSDF x cosine / pdf, per RGB
-    float pdf;       // solid angle, of the lobes that light sampling can evaluate; 0 for specular ones
+    float pdf;       // per solid angle, over the lobes that light sampling can evaluate; 0 when `specular`
     bool specular;   // mirror or smooth glass: light sampling does not cover it
-    bool straight;   // passed a thin sheet without turning: shadow rays pass there too
-    bool narrow;     // by a lobe so narrow that what it throws on other surfaces is nearly as sharp as a caustic
+    bool straight;   // passed a thin sheet without a change of direction, as shadow rays do
+    bool narrow;     // by a lobe so narrow that its light on other surfaces is nearly as sharp as a caustic
 };
 
 /// Samples a direction at `s` for a path that comes from `to_view` (unit, away from the surface). nullopt when
@@ -30,11 +30,11 @@ std::optional<Scatter> sample_bsdf(const SurfaceReader& reader, const Surface& s
 /// Solid-angle pdf with which sample_bsdf picks `to_light` by its non-specular lobes.
 float bsdf_pdf(const SurfaceReader& reader, const Surface& s, vec3 to_view, vec3 to_light);
 
-/// Absorption (1/m) of what lies before `s` on a ray along `direction`: the volume's own when its surface is met from
-/// inside, else that of the `medium` the path knows of.
+/// Absorption (1/m, per RGB) of the medium that a ray along `direction` crosses before it meets `s`: that of the volume
+/// when its surface is met from inside, else `medium`, the absorption that the path was in.
 vec3 absorption_before(const SurfaceReader& reader, const Surface& s, vec3 direction, vec3 medium);
 
-/// Absorption (1/m) of what lies behind `s` along the direction in which a path leaves it.
+/// Absorption (1/m, per RGB) of the medium into which a path leaves `s` along `direction`.
 vec3 absorption_after(const SurfaceReader& reader, const Surface& s, vec3 direction, vec3 medium);
 
 }  // namespace lw

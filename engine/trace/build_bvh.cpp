@@ -62,7 +62,7 @@ std::vector<RTCBuildPrimitive> primitives_of(const Scene& scene) {
     return primitives;
 }
 
-/// Appends the subtree depth first and closes its skip links.
+/// Appends the subtree depth first; each node gets the index of the node to go to when its box is missed.
 void lay_out(const BuiltNode& node, const RTCBounds& bounds, Bvh& bvh) {
     const size_t index = bvh.nodes.size();
     const uint leaf = node.count ? uint(bvh.triangles.size()) << 4 | node.count : 0;

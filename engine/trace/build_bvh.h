@@ -1,4 +1,4 @@
-// Builds the shadow rays' hierarchy with Embree's surface area heuristic builder.
+// Builds the hierarchy that rays in compute shaders traverse, with Embree's builder (surface area heuristic).
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"

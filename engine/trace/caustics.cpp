@@ -13,16 +13,16 @@ namespace {
 
 constexpr uint64_t paths_per_task = 4096;
 constexpr int max_bounces = 64;
-constexpr float roughest_caster = 0.35f;  // its lobe is some 15 degrees wide
-constexpr float min_alignment = 0.8f;     // cosine between the normals of a light's arrival and of the point it is for
+constexpr float roughest_caster = 0.35f;  // a lobe at this roughness is some 15 degrees wide
+constexpr float min_alignment = 0.8f;     // least cosine between normals at an arrival and at the estimate's point
 
-/// Of a Surface or a Material.
+/// True for polished metal and glass. `s` is a Surface or a Material.
 bool is_polished(const auto& s) {
     return s.roughness < roughest_caster && (s.metallic > 0.999f || s.transmission > 0.999f) &&
            (s.flags & material_unlit) == 0;
 }
 
-/// The specular part of a path from a lamp.
+/// Traces paths from lamps for as long as they meet surfaces that cast caustics.
 class CausticPath {
   public:
     CausticPath(const Scene& scene, const RayCaster& caster) : caster_(caster), surfaces_(scene), emitters_(scene) {}
@@ -35,7 +35,7 @@ class CausticPath {
         vec3 flux = emission.flux * weight, origin = caster_.offset(emission.origin, emission.normal),
              direction = emission.direction, medium(0);
         bool direct = true;
-        std::vector<Hit> passed;  // blends, which are lit all the same
+        std::vector<Hit> passed;  // blended surfaces that the path went through; they are lit too
         for (int bounce = 0; bounce < max_bounces; ++bounce) {
             passed.clear();
             const std::optional<Hit> hit = caster_.nearest(origin, direction, rng, &passed);
@@ -70,7 +70,7 @@ class CausticPath {
     Emitters emitters_;
 };
 
-/// Paths of each lamp, in proportion to its flux.
+/// The number of paths of each lamp, about `wanted` in all, in proportion to the lamps' flux.
 std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, std::span<const vec3> powers,
                                   uint64_t wanted) {
     std::vector<double> flux(scene.lights.size(), 0);

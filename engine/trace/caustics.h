@@ -1,7 +1,7 @@
-// Light of lamps by way of mirrors, polished metal and glass alone: what paths from the eye find not at all, or rarely.
-// Traced from the lamps and spread over a small radius; the mean over many independent sets with shrinking radii
-// converges to the truth (progressive photon mapping in its memoryless form, Knaus & Zwicker 2011). Used by the
-// reference, not by the maps.
+// Light that reaches surfaces from lamps by way of mirrors, polished metal and glass alone. Paths from the eye find it
+// rarely or never, so it is traced from the lamps and estimated with a small kernel. The mean over many independent
+// sets with shrinking radii converges to the truth (memoryless progressive photon mapping, Knaus & Zwicker 2011). Used
+// by the reference path tracer, not by the maps.
 #pragma once
 #include <span>
 #include <vector>
@@ -11,23 +11,23 @@
 
 namespace lw {
 
-/// How one set of caustic light is traced.
+/// How one set of caustic paths is traced.
 struct CausticSettings {
-    uint64_t paths = 200'000;  // from all such lamps together
-    float radius = 0;          // m, over which it is spread
+    uint64_t paths = 200'000;  // of all lamps together
+    float radius = 0;          // m, of the kernel
     uint64_t seed = 1;
-    uint64_t set = 0;  // another set is independent of this one
+    uint64_t set = 0;  // number of the set; sets of different numbers are independent
 };
 
-/// True for a surface of nothing but lobes so narrow that light sampling hardly finds them: light by way of it is
-/// traced from the lamps.
+/// True for a surface whose only lobes are so narrow that light sampling hardly finds a lamp through them. Light by way
+/// of such surfaces is traced from the lamps.
 bool casts_caustics(const Surface& s);
 
-/// True when the scene has a lamp of weight > 0 and a mirror, smooth glass or gloss that is
-/// followed as a mirror, or a metal or glass that casts caustics.
+/// True when a lamp has power and a material is, or by its textures may be, a mirror, smooth glass, or polished metal
+/// or glass. `powers`: RGB power of each lamp.
 bool has_caustics(const Scene& scene, std::span<const vec3> powers);
 
-/// Light that arrived from lamps by specular bounces and such surfaces only, on surfaces that cast no caustics.
+/// One set of caustic light: the arrivals at surfaces that cast no caustics, of paths that met only such as do.
 class Caustics {
   public:
     /// Traces a set; the result does not depend on the number of threads.
@@ -40,12 +40,12 @@ class Caustics {
     /// Radiance that the caustic light at `s` sends towards `to_view`, cd/m2; n and ng are turned to the viewer.
     vec3 reflected(const SurfaceReader& reader, const Surface& s, vec3 n, vec3 ng, vec3 to_view) const;
 
-    /// Arrived light, one record each: for tests, which count it.
+    /// The arrivals, one record each, for tests that count them.
     struct Arrival {
         vec3 position;
         vec3 flux;    // lm
         vec3 from;    // unit
-        vec3 normal;  // geometric, on the lit side
+        vec3 normal;  // geometric, unit, on the lit side
     };
     const std::vector<Arrival>& arrivals() const { return arrivals_; }
 
@@ -55,7 +55,7 @@ class Caustics {
     uint cell_of(vec3 position) const;
 
     std::vector<Arrival> arrivals_;  // sorted by cell
-    std::vector<uint> cell_starts_;  // of a hash table of cubes twice the radius wide
+    std::vector<uint> cell_starts_;  // of each cell of a hash table; the cells are cubes 2 radius_ wide
     float radius_ = 0;
 };
 

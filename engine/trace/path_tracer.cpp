@@ -16,7 +16,7 @@ float power_heuristic(float a, float b) { return a * a / (a * a + b * b); }
 
 }  // namespace
 
-/// A surface and the normals turned to where the path comes from.
+/// A vertex of a path: the surface there, and its normals on the side from which the path came.
 struct PathTracer::Vertex {
     Vertex(const Surface& surface, vec3 towards) : s(surface), to_view(towards) {
         const float side = dot(s.geometric_normal, to_view) < 0 ? -1.0f : 1.0f;
@@ -60,7 +60,7 @@ vec3 PathTracer::direct(const Vertex& at, bool all_lamps, Rng& rng) const {
 
 vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, const Caustics* caustics, Rng& rng) const {
     vec3 sum(0), throughput(1), medium(0);
-    float distance = 0;                          // since the last vertex that light sampling covers
+    float distance = 0;                          // m since the last vertex at which lamps were sampled
     bool scattered = !first, by_mirror = false;  // has met a surface that shows caustics, and what casts them after it
     for (int depth = 0; depth < max_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
@@ -93,7 +93,7 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, cons
         direction = next->direction;
         medium = absorption_after(surfaces_, s, direction, medium);
         origin = caster_.offset(s.position, dot(direction, at.ng) > 0 ? at.ng : -at.ng);
-        // A sheet that is passed straight on is no vertex: light sampling at the last one reaches through it.
+        // A thin sheet that is passed straight on is no vertex: light sampling at the vertex before reaches through it.
         if (next->straight) continue;
         by_mirror = next->specular || casts;
         scattered = scattered || !by_mirror;

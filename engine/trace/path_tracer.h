@@ -1,6 +1,6 @@
-// The reference: unbiased radiance and illuminance by path tracing with light sampling and multiple importance
-// sampling (Veach 1997), from the same scene, lamps and BSDF as the photons, but none of their estimators.
-// Light of lamps by way of mirrors and lenses, which paths from the eye hardly find, comes from trace/caustics.
+// The reference: unbiased radiance and illuminance by path tracing with light sampling and multiple importance sampling
+// (Veach 1997), from the same scene, lamps and BSDF as the photons, but none of their estimators. Light that comes from
+// lamps by way of mirrors and lenses is hardly found by paths from the eye; trace/caustics adds it.
 #pragma once
 #include <vector>
 
@@ -16,8 +16,8 @@ class PathTracer {
     /// `powers`: RGB power of each lamp (lamp_powers()). All references must outlive the tracer.
     PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> powers);
 
-    /// One sample of the radiance arriving at `origin` from `direction`, cd/m2 per RGB. Unbiased, but for caustics:
-    /// those of points and suns are left out without `caustics`; with them, all are blurred over their radius.
+    /// One sample of the radiance that arrives at `origin` from unit `direction`, cd/m2 per RGB. Unbiased except for
+    /// caustics: without `caustics` those of points and suns are missing; with a set, all are blurred over its radius.
     vec3 radiance(vec3 origin, vec3 direction, Rng& rng, const Caustics* caustics = nullptr) const;
 
     /// One sample of the irradiance at `point` on the side of unit `normal`, lux per RGB; caustics as above.

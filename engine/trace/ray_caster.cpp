@@ -17,12 +17,12 @@
 namespace lw {
 namespace {
 
-constexpr int max_layers = 256;  // of holes and glass along a ray
+constexpr int max_layers = 256;  // most holes and sheets of glass along a ray
 
 RTCScene as_scene(void* handle) { return static_cast<RTCScene>(handle); }
 
-/// Origin, start, direction and time are written as Embree reads them, 16 bytes at a time: of single floats just
-/// written it would have to wait for the memory.
+/// A ray for Embree. Its members are written 16 bytes at a time, as Embree reads them: a wide load after several narrow
+/// stores would wait for them.
 RTCRay make_ray(vec3 origin, vec3 direction, float far) {
     using Floats = float __attribute__((vector_size(16)));
     const Floats from{origin.x, origin.y, origin.z, 0}, along{direction.x, direction.y, direction.z, 0};
@@ -56,7 +56,8 @@ bool occluded(RTCScene scene, RTCRay& ray) {
     return ray.tfar < 0;
 }
 
-/// What a point query collects: triangles of leaves near the point, of which some are far.
+/// The data of a point query. Embree offers the triangles of all leaves near the point; collect() keeps those within
+/// the radius.
 struct Collected {
     const Scene& scene;
     vec3 point;
@@ -132,7 +133,8 @@ float RayCaster::opacity(const Hit& hit) const {
     return surfaces_.opacity_at(hit.triangle, surfaces_.surface_at(hit.triangle, hit.barycentrics));
 }
 
-/// `number(hit)` in [0, 1) decides at surfaces that are partly there.
+/// Nearest surface that counts. At a surface of alpha < 1, `number(hit)` in [0, 1) decides: it is met when the number
+/// is below alpha.
 template <class Choose>
 std::optional<Hit> RayCaster::nearest_chosen(vec3 origin, vec3 direction, float max_distance, const Choose& number,
                                              std::vector<Hit>* passed_hits) const {

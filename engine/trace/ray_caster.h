@@ -24,20 +24,21 @@ class RayCaster {
     RayCaster(const RayCaster&) = delete;
     RayCaster& operator=(const RayCaster&) = delete;
 
-    /// Nearest surface along a unit direction; alpha-masked holes are passed, blended surfaces by coverage: always the
-    /// same way at the same place.
+    /// Nearest surface along a unit direction. Holes of alpha masks are passed. A blended surface (alpha < 1) is met or
+    /// passed by a hash of the place, in proportion to alpha: the same ray always gives the same answer.
     std::optional<Hit> nearest(vec3 origin, vec3 direction, float max_distance = 1e30f) const;
 
-    /// The same, but a blended surface is met with the probability of its alpha: for paths, whose mean counts. `passed`
-    /// takes those that were not: they are lit all the same.
+    /// The same for random paths: a blended surface is met with the probability of its alpha. Hits of blended surfaces
+    /// that were passed are appended to `passed`, if given: photons light them too.
     std::optional<Hit> nearest(vec3 origin, vec3 direction, Rng& rng, std::vector<Hit>* passed = nullptr) const;
 
-    /// Fraction of light (per RGB) that passes between two points, by the rule of passed_by() in shaders/bsdf.glsl: 0
-    /// when blocked, the tint of thin smooth glass, 1 - alpha of blends.
+    /// Fraction of light, per RGB, that passes between two points by the rule of passed_by() in shaders/bsdf.glsl: 0
+    /// when something opaque stands between, else the product of the tints of thin smooth glass and of 1 - alpha of
+    /// blended surfaces.
     vec3 transmittance(vec3 from, vec3 to) const;
 
-    /// Writes to `found` every triangle within `radius` m of a point. Returns false when there are more than `most`;
-    /// then some are missing.
+    /// Writes the indices of all triangles within `radius` m of a point to `found`. Returns false when there are more
+    /// than `most`; then `found` holds only that many.
     bool triangles_around(vec3 point, float radius, size_t most, std::vector<uint>& found) const;
 
     /// `point` moved off its surface along `normal` by a few units of float precision of the scene.
@@ -57,7 +58,7 @@ class RayCaster {
     void* embree_scene_ = nullptr;
     float epsilon_ = 0;
     bool has_holes_ = false;       // alpha masks or blends
-    bool has_thin_glass_ = false;  // that shadow rays may pass
+    bool has_thin_glass_ = false;  // which shadow rays may pass
 };
 
 }  // namespace lw

@@ -27,12 +27,12 @@ struct PixelSum {
     double error(size_t c, uint64_t n) const { return n > 1 ? std::sqrt(deviation[c] / double(n - 1) / double(n)) : 0; }
 };
 
-/// What every sample of a pixel sees first; pixel centres, so it is found once.
+/// The first surface on the ray through the centre of a pixel. All samples of the pixel share it, so it is found once.
 struct FirstHit {
     CameraRay ray;
     std::optional<Hit> hit;
     Surface surface;
-    vec3 normal;  // geometric, to the viewer
+    vec3 normal;  // geometric, unit, on the side of the viewer
 };
 
 double relative_error(const std::vector<PixelSum>& pixels, uint64_t n) {
@@ -75,7 +75,8 @@ Image to_image(const std::vector<PixelSum>& pixels, uint64_t n, const ReferenceS
     return image;
 }
 
-/// The radii over which caustic light is spread fall so that blur and noise vanish together (Knaus & Zwicker 2011).
+/// The kernel radii of the caustics, one per sample. They fall so that blur and noise vanish together (Knaus & Zwicker
+/// 2011).
 class CausticRadii {
   public:
     explicit CausticRadii(float first) : r2_(double(first) * double(first)) {}

@@ -1,4 +1,4 @@
-// A whole reference picture: mean and standard error per pixel from the path tracer.
+// A reference picture by the path tracer: mean and standard error of each pixel.
 #pragma once
 #include "image/image.h"
 #include "scene/scene.h"
@@ -13,10 +13,10 @@ struct ReferenceSettings {
     uint64_t samples = 256;
     double seconds = 0;
     double error = 0;
-    bool illuminance = true;  // a second path per sample measures lux at the first surface
+    bool illuminance = true;  // also trace a second path per sample, which measures lux at the first surface
     uint64_t seed = 1;
-    uint64_t caustic_paths = 200'000;  // from the lamps, per sample, in scenes that need them; 0 leaves caustics out
-    float caustic_radius = 0;          // m, over which the first sample spreads them; 0: 0.4 % of the scene's size
+    uint64_t caustic_paths = 200'000;  // from the lamps per sample, in scenes with caustics; 0 leaves caustics out
+    float caustic_radius = 0;  // m, radius of the kernel for caustics in the first sample; 0: 0.4 % of the scene's size
 };
 
 struct Reference {
@@ -27,7 +27,7 @@ struct Reference {
     float caustic_radius = 0;  // m, root mean square over the samples: the blur of caustics; 0 without any
 };
 
-/// Throws Error telling what would fit when a picture of this size takes more than `available` bytes.
+/// Throws Error when a picture of this size takes more than `available` bytes; the message says which size would fit.
 void check_reference_fits(const ReferenceSettings& settings, uint64_t available);
 
 /// Renders through pixel centres, as the gather does, so that pictures can be compared pixel by pixel.

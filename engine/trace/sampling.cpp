@@ -36,8 +36,8 @@ constexpr uint32_t reverse_bits(uint32_t x) {
     return __builtin_bswap32(x);
 }
 
-/// The sum (XOR) of the direction numbers of each value of each group of 4 bits of an index, per dimension; their bits
-/// are reversed, as the scrambling wants them.
+/// Tables for 4 bits of an index at a time: [dimension][group of 4 bits][value] is the XOR of the direction numbers of
+/// the bits set in the value. The bits are stored reversed, as the scrambling takes them.
 using NibbleSums = std::array<std::array<std::array<uint32_t, 16>, 8>, 5>;
 
 constexpr NibbleSums sum_direction_numbers() {

@@ -1,4 +1,4 @@
-// Warps of uniform numbers, and the quasi-random numbers of the emission.
+// Warps of uniform numbers u, v in [0, 1) to directions and points, and the quasi-random numbers for photon emission.
 #pragma once
 #include <cmath>
 
@@ -27,7 +27,7 @@ inline vec3 sample_cosine(float u, float v) {
     return {d.x, d.y, std::sqrt(std::max(0.0f, 1 - u))};
 }
 
-/// Direction with the given cosine to +Z.
+/// Unit direction with the given cosine to +Z; `v` in [0, 1) turns it around the axis.
 inline vec3 direction_of(float cosine, float v) {
     const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine)), phi = 2 * lw_pi * v;
     return {sine * std::cos(phi), sine * std::sin(phi), cosine};
@@ -39,8 +39,8 @@ inline vec2 sample_triangle(float u, float v) {
     return {root * (1 - v), root * v};
 }
 
-/// Dimension `dimension` (0..4) of the Owen-scrambled Sobol sequence: direction numbers of Joe & Kuo (2008),
-/// hash-based scrambling of Burley (2020), seeded per dimension.
+/// Element `index`, dimension 0 to 4, of the Sobol sequence with Owen scrambling, in [0, 1): direction numbers of Joe &
+/// Kuo (2008), hash-based scrambling of Burley (2020). Sequences of different `seed` are independent.
 float sobol_owen(uint32_t index, int dimension, uint32_t seed);
 
 }  // namespace lw
