@@ -34,7 +34,7 @@ vec3 dielectric_fresnel(Surface s, float cosine, bool inside) LW_MEMBER {
     return cosine < 0.0f ? vec3(1.0f) : f0 + (vec3(s.specular) - f0) * schlick_weight(cosine);
 }
 
-/// What is not reflected: the same for all channels (appendix B.3.4).
+/// The part of the light that is not reflected, equal for all channels (appendix B.3.4).
 float passed_by_fresnel(vec3 fresnel) LW_MEMBER { return 1.0f - max(fresnel.x, max(fresnel.y, fresnel.z)); }
 
 /// GGX distribution times the height-correlated Smith visibility V = G / (4 n.l n.v).
@@ -53,13 +53,14 @@ bool is_purely_specular(Surface s) LW_MEMBER {
     return mirror || glass;
 }
 
-/// Reflectance of the specular lobe where its facets are met at `cosine`.
+/// Reflectance of the specular lobe at `cosine` between the viewer and the microfacet normal.
 vec3 specular_reflectance(Surface s, float cosine, bool inside) LW_MEMBER {
     vec3 metal = s.base_color + (vec3(1.0f) - s.base_color) * schlick_weight(cosine);
     return dielectric_fresnel(s, cosine, inside) * (1.0f - s.metallic) + metal * s.metallic;
 }
 
-/// Visible normals of GGX (Heitz 2018) in the frame of the surface, from a point of the unit disc.
+/// Samples a visible normal of GGX (Heitz 2018). `view` and the result are in the frame of the surface, normal +Z;
+/// `disc`: uniform in the unit disc.
 vec3 sample_visible_normal(vec3 view, float alpha, vec2 disc) LW_MEMBER {
     vec3 vh = normalize(vec3(alpha * view.x, alpha * view.y, view.z));
     float length2 = vh.x * vh.x + vh.y * vh.y;
@@ -127,7 +128,8 @@ vec3 eval_brdf(Surface s, vec3 n, vec3 to_view, vec3 to_light, bool diffuse_only
     return f.diffuse + f.specular;
 }
 
-/// True when what a sheet transmits goes straight on: shadow rays pass it, and light through it is still direct.
+/// True when a thin sheet transmits light without a change of direction. Shadow rays pass it, and light through it
+/// still counts as direct.
 bool passes_straight(Surface s) LW_MEMBER {
     return (s.flags & material_thin) != 0u && s.roughness * s.roughness < min_alpha;
 }
@@ -137,7 +139,7 @@ bool transmits_smoothly(Surface s) LW_MEMBER {
     return s.roughness * s.roughness < min_alpha || (refracts(s) && abs(s.ior - 1.0f) < 1e-3f);
 }
 
-/// Part of the light met at `cosine` that the transmission lobe carries on, roughness aside.
+/// The part of the light at `cosine` that the transmission lobe transmits, roughness aside.
 vec3 transmitted_part(Surface s, float cosine, bool inside) LW_MEMBER {
     float passed = passed_by_fresnel(dielectric_fresnel(s, cosine, inside));
     return s.base_color * (passed * s.transmission * (1.0f - s.metallic));
@@ -162,7 +164,7 @@ vec3 eval_btdf(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
     float nv = max(dot(n, to_view), 1e-4f);
     if (nl <= 0.0f || s.transmission <= 0.0f || transmits_smoothly(s) || (s.flags & material_unlit) != 0u)
         return vec3(0.0f);
-    if ((s.flags & material_thin) != 0u) {  // the reflection, turned to the other side
+    if ((s.flags & material_thin) != 0u) {  // the reflection mirrored to the other side
         vec3 h = normalize(to_view + to_light + 2.0f * nl * n);
         return transmitted_part(s, clamp(dot(to_view, h), 0.0f, 1.0f), false) *
                ggx_d_v(alpha, clamp(dot(n, h), 0.0f, 1.0f), nl, nv);
@@ -188,8 +190,8 @@ vec3 eval_bsdf(Surface s, vec3 n, vec3 to_view, vec3 to_light) LW_MEMBER {
 /// Part of the light left after `distance` m in a medium of `absorption` 1/m (Beer-Lambert).
 vec3 passed_by_medium(vec3 absorption, float distance) LW_MEMBER { return exp(-absorption * distance); }
 
-/// Fraction of light that a crossed triangle lets pass straight on: holes, and thin smooth sheets. The rest is
-/// reflected, scattered or refracted, which is the photons' and the paths' business.
+/// Fraction of light, per RGB, that passes straight through a triangle: holes, blends and thin smooth sheets. The rest
+/// is reflected, scattered or refracted; photons and paths account for it.
 vec3 passed_by(uint triangle, vec2 barycentrics, vec3 direction) LW_MEMBER {
     Surface s = surface_at(triangle, barycentrics);
     vec3 passed = vec3(0.0f);

@@ -1,5 +1,5 @@
-// Bounding volume hierarchy for shadow rays in compute, shared by C++ and GLSL: nodes in depth-first order with skip
-// links, so that a traversal needs no stack.
+// The bounding volume hierarchy that rays in compute shaders traverse, shared by C++ and GLSL. Nodes are in depth-first
+// order with skip links, so a traversal needs no stack.
 #ifndef LW_BVH_H
 #define LW_BVH_H
 #include "types.h"
@@ -7,13 +7,14 @@
 namespace lw {
 #endif
 
-/// Set in the entries of triangles that may let light through: cut-outs, blends, thin glass.
+/// A bit set in the entries of triangles that may let light through: alpha masks, blends, thin glass.
 LW_CONST uint bvh_see_through = 0x80000000u;
 
-/// Next node is the following one when the box is hit and the node is inner, otherwise `skip`.
+/// A node. The traversal goes to the next node of the array when the ray meets the box of an inner node, and to node
+/// `skip` otherwise.
 struct BvhNode {
     vec3 low;
-    uint skip;  // first node behind this subtree
+    uint skip;  // index of the first node after this subtree
     vec3 high;
     uint leaf;  // 0: inner node; else first entry of the triangle list << 4 | number of triangles (1 to 15)
 };

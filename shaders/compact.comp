@@ -1,4 +1,4 @@
-// Lists the triangles that each block keeps, in the scene's order.
+// Writes the triangles that each block keeps to the list, in the scene's order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,5 @@
-// Finds the triangles that may cover the centre of a pixel. Those in doubt stay: the picture is that of all triangles.
+// Finds the triangles that may cover the centre of a pixel. Doubtful ones are kept, so that the picture is that of all
+// triangles.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -33,8 +34,8 @@ bool is_outside(Cluster box) {
            is_beyond(centre, half_size, ahead * slope.y + frame.camera_up, 0.0f);
 }
 
-/// Twice the area of the triangle that two points make with any point at most `reach` from the origin, when the
-/// rasterizer and rounding may have moved the two by pixel_margin: the least and the most.
+/// Bounds (least, most) of twice the signed area of the triangles that p and q form with points within `reach` of the
+/// origin, where the rasterizer and rounding may have moved p and q by pixel_margin.
 vec2 area_with(vec2 p, vec2 q, vec2 reach) {
     vec2 side = abs(q - p) + 2.0f * pixel_margin, far = abs(p) + abs(q) + 2.0f * pixel_margin;
     float slack = pixel_margin * (far.x + far.y) + side.x * reach.y + side.y * reach.x;

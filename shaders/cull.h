@@ -1,5 +1,5 @@
-// Which triangles are rasterised: an own descriptor set of the passes that cull them and of visibility.vert.
-// Stream compaction as in Harris, Sengupta, Owens: Parallel Prefix Sum (Scan) with CUDA (GPU Gems 3, chapter 39).
+// Records of the culling of triangles, in a descriptor set of the culling passes and of visibility.vert. Stream
+// compaction as in Harris, Sengupta, Owens: Parallel Prefix Sum (Scan) with CUDA (GPU Gems 3, chapter 39).
 #ifndef LW_CULL_H
 #define LW_CULL_H
 #include "frame.h"
@@ -7,7 +7,8 @@
 namespace lw {
 #endif
 
-/// Neighbours in the scene's order. Those of opaque clusters come first in the array.
+/// A group of up to cluster_triangles triangles that follow each other in the scene. Clusters whose triangles are all
+/// opaque come first in the array.
 struct Cluster {
     vec3 low;  // bounds
     uint first;
@@ -16,12 +17,13 @@ struct Cluster {
 };
 LW_CONST uint cluster_texels = 2u;
 
-/// Triangles that one invocation looks at.
+/// Number of triangles that one invocation tests: a block.
 LW_CONST uint block_triangles = 32u;
 LW_CONST uint blocks_per_cluster = cluster_triangles / block_triangles;
 LW_CONST uint cull_group = 64u;  // invocations
 
-/// Of a block: a bit for each triangle that may cover a pixel's centre, and where the first of them goes in the list.
+/// What culling found of a block: a bit for each triangle that may cover the centre of a pixel, and the place of the
+/// first of these in the list.
 struct Survivors {
     uint mask;
     uint first_listed;

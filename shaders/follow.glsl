@@ -1,10 +1,10 @@
-// View paths that go on from what the eye sees: along specular lobes too narrow for photons, through glass and blends,
-// by way of mirrors, to the surface where light is gathered. Conventions are those of trace/path_tracer: Heitz's
-// visible normals, one Fresnel factor for both sides, absorption in volumes, alpha by chance. One text for C++ and
-// GLSL; needs followed.h, shade.glsl, rays.glsl and the constants has_followed, follows_through, followed_roughness.
-// Loops are bounded: some devices end long ones without a word.
+// Followed view paths. From the surface that a pixel shows they go on along specular lobes too narrow for photons,
+// through glass and blends, and by way of mirrors, to a surface where light is gathered. Sampling follows
+// trace/path_tracer: visible normals (Heitz 2018), one Fresnel factor for both sides, absorption in volumes, blends
+// passed at random. One text for C++ and GLSL; needs followed.h, shade.glsl, rays.glsl and the constants has_followed,
+// follows_through, followed_roughness. All loops are bounded, because some devices silently end long ones.
 
-/// A ray on its way, and what the light it meets counts.
+/// A ray of a path, with the weight of the light that it will meet.
 struct ViewRay {
     vec3 origin;
     vec3 direction;  // unit
@@ -14,15 +14,16 @@ struct ViewRay {
     float distance;  // m since that lobe
 };
 
-/// Low-discrepancy numbers of a path: element `index` of the R2 sequence (Roberts 2018), shifted.
+/// The source of a path's random numbers: element `index` of the R2 sequence (Roberts 2018), shifted per pixel.
 struct PathNumbers {
     uint seed;
     vec2 shift;
     uint index;
-    uint random;  // of this path alone
+    uint random;  // a hash that is different for each path
 };
 
-/// The shifts of a tile of 4 x 4 pixels are a grid, so that neighbours complete each other.
+/// The numbers of a path of a pixel. The shifts in a tile of 4 x 4 pixels form a grid, so that the samples of
+/// neighbours fill the unit square evenly.
 PathNumbers path_numbers(uvec2 pixel, Following following, uint sample_index) LW_MEMBER {
     PathNumbers numbers;
     numbers.shift = vec2(float((pixel.x + 2u * pixel.y) & 3u), float((pixel.y + 2u * pixel.x) & 3u)) / 4.0f;
@@ -34,15 +35,16 @@ PathNumbers path_numbers(uvec2 pixel, Following following, uint sample_index) LW
     return numbers;
 }
 
-/// The points on mesh lamps at the end of a path: apart for each, as one sequence for the facets and the lamps beyond
-/// would pair them.
+/// The sequence of points on mesh lamps for the end of a path. It differs for each path and depth: with one sequence
+/// for microfacets and lamps, their samples would be correlated.
 LampPoints points_at_end(uint seed, Following following) LW_MEMBER {
     return first_points(
         hash_uint(seed + 0x9e3779b9u * (1u + following.branch + 2u * following.depth + 8u * following.path)));
 }
 
-/// For the facet of the surface before which `surface` others were met: stratified over the paths at the first one,
-/// random at the others, as the same sequence at two of them would pair their facets.
+/// Two numbers in [0, 1) that choose the microfacet at surface number `surface` of a path, counted from 0. They are
+/// stratified over the paths at the first surface and random at later ones: the same sequence at two surfaces would
+/// correlate their microfacets.
 vec2 lobe_numbers(PathNumbers numbers, uint surface) LW_MEMBER {
     bool stratified = surface == 0u;
     uint random = hash_uint(numbers.seed + 0x9e3779b9u * surface + (stratified ? 0u : numbers.random));
@@ -52,7 +54,8 @@ vec2 lobe_numbers(PathNumbers numbers, uint surface) LW_MEMBER {
                : fract(start + numbers.shift + float(numbers.index & 0xffffu) * vec2(0.754877666f, 0.569840291f));
 }
 
-/// For the way on from a surface, in [0, 1): stratified at the first two.
+/// A number in [0, 1) that chooses how a path goes on from surface number `surface`; stratified over the paths at the
+/// first two surfaces.
 float choice_number(PathNumbers numbers, uint surface) LW_MEMBER {
     bool stratified = surface <= 1u;
     uint random = hash_uint((numbers.seed ^ (0x85ebca6bu * (surface + 1u))) + (stratified ? 0u : numbers.random));
@@ -64,7 +67,7 @@ float choice_number(PathNumbers numbers, uint surface) LW_MEMBER {
 
 float largest(vec3 v) LW_MEMBER { return max(v.x, max(v.y, v.z)); }
 
-/// True for a surface whose specular lobe is followed by rays when the eye sees it.
+/// True for a surface whose specular lobe is followed by rays where a pixel shows the surface.
 bool reflects_narrowly(Surface s) LW_MEMBER {
     return has_followed && s.roughness < followed_roughness && (s.metallic > 0.0f || s.specular > 0.0f) &&
            (s.flags & material_unlit) == 0u;
@@ -80,7 +83,7 @@ mat3 basis_around(vec3 n) LW_MEMBER {
     return mat3(vec3(1.0f + side * n.x * n.x * a, side * b, -side * n.x), vec3(b, side + n.y * n.y * a, -n.y), n);
 }
 
-/// The normal of a facet that the eye sees: of a mirror `n` itself.
+/// A microfacet normal, sampled by `u` among those visible from `to_eye`; `n` itself for a mirror.
 vec3 microfacet_normal(Surface s, vec3 n, vec3 to_eye, vec2 u) LW_MEMBER {
     float alpha = s.roughness * s.roughness;
     if (alpha < min_alpha) return n;
@@ -90,7 +93,8 @@ vec3 microfacet_normal(Surface s, vec3 n, vec3 to_eye, vec2 u) LW_MEMBER {
     return basis * sample_visible_normal(to_eye * basis, alpha, vec2(r * cos(phi), r * sin(phi)));
 }
 
-/// The part of the facets the eye sees that see the light too: height-correlated Smith G2 / G1; 1 for a mirror.
+/// The part of the microfacets visible to the eye that the light reaches too: height-correlated Smith G2 / G1; 1 for a
+/// mirror. nl, nv: cosines of light and eye to the normal.
 float unmasked_part(Surface s, float nl, float nv) LW_MEMBER {
     float alpha = s.roughness * s.roughness;
     if (alpha < min_alpha) return 1.0f;
@@ -102,7 +106,8 @@ float unmasked_part(Surface s, float nl, float nv) LW_MEMBER {
 
 bool is_inside(Seen seen) LW_MEMBER { return !seen.front && refracts(seen.surface); }
 
-/// A ray along the reflecting lobe; weight 0 where it would leave by the wrong side.
+/// A ray reflected by the specular lobe. Its weight is 0 when it would leave on the wrong side of the surface.
+/// `medium`: absorption of the medium that the path was in.
 ViewRay reflected_ray(Seen seen, vec3 medium, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
     vec3 n = seen.n_shading;
@@ -122,7 +127,7 @@ ViewRay reflected_ray(Seen seen, vec3 medium, vec2 u) LW_MEMBER {
     return ray;
 }
 
-/// The ray `before` that arrived, or would arrive, at a surface, straight on behind it.
+/// Continues the ray `before` straight on behind the surface it met.
 ViewRay straight_ray(Seen seen, ViewRay before) LW_MEMBER {
     ViewRay ray = before;
     ray.direction = -seen.to_eye;
@@ -130,7 +135,7 @@ ViewRay straight_ray(Seen seen, ViewRay before) LW_MEMBER {
     return ray;
 }
 
-/// A ray through a sheet or into or out of a volume; weight 0 where facets reflect totally.
+/// A ray through a thin sheet, or into or out of a volume. Its weight is 0 when the microfacet reflects totally.
 ViewRay transmitted_ray(Seen seen, ViewRay before, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
     vec3 n = seen.n_shading;
@@ -145,7 +150,7 @@ ViewRay transmitted_ray(Seen seen, ViewRay before, vec2 u) LW_MEMBER {
         float eta = inside ? s.ior : 1.0f / s.ior;
         float behind = refracted_cosine(vh, eta);
         ray.direction = normalize((eta * vh - behind) * h - eta * seen.to_eye);
-        ray.weight *= behind > 0.0f ? eta * eta : 0.0f;  // radiance is smaller in the thinner medium
+        ray.weight *= behind > 0.0f ? eta * eta : 0.0f;  // radiance is smaller in the medium of lower index
         ray.medium = inside ? vec3(0.0f) : s.absorption;
     } else {
         vec3 reflected = 2.0f * vh * h - seen.to_eye;
@@ -171,7 +176,8 @@ ViewRay no_ray() LW_MEMBER {
     return ray;
 }
 
-/// What the eye sees through a surface: straight on past a blend, or through glass, by chance where it is both.
+/// The ray to what is behind a surface: straight on past a blend, or transmitted through glass; chosen at random where
+/// a surface is both.
 ViewRay ray_behind(Seen seen, PathNumbers numbers) LW_MEMBER {
     Surface s = seen.surface;
     float there = opacity_at(seen.triangle, s);
@@ -187,7 +193,7 @@ ViewRay ray_behind(Seen seen, PathNumbers numbers) LW_MEMBER {
     return ray;
 }
 
-/// The first ray of a path from what the eye sees.
+/// The first ray of a path, from the surface that the pixel shows.
 ViewRay first_ray(Seen seen, uint branch, PathNumbers numbers) LW_MEMBER {
     ViewRay ray = no_ray();
     if (branch == branch_through) {
@@ -199,24 +205,26 @@ ViewRay first_ray(Seen seen, uint branch, PathNumbers numbers) LW_MEMBER {
     return ray;
 }
 
-/// True when a path goes on from what the eye sees.
+/// True when a path of this branch goes on from the surface that the pixel shows.
 bool goes_on(Seen seen, uint branch) LW_MEMBER {
     if (branch == branch_reflected) return reflects_narrowly(seen.surface);
     return follows_through && (is_glass(seen.surface) || (has_alpha && opacity_at(seen.triangle, seen.surface) < 1.0f));
 }
 
-/// The part of a surface that is there: what it shows itself counts so much.
+/// The opacity of a surface: the weight of the light that it shows itself, where paths follow what is behind it; else
+/// 1.
 float shown_part(Seen seen) LW_MEMBER {
     return has_alpha && follows_through ? opacity_at(seen.triangle, seen.surface) : 1.0f;
 }
 
-/// True where the illuminance of a pixel is that of the surface behind.
+/// True when the pixel reports the illuminance of the surface behind this one.
 bool is_followed_through(Seen seen) LW_MEMBER {
     if (!follows_through) return false;
     return (seen.surface.transmission > 0.5f && seen.surface.metallic < 0.5f) || shown_part(seen) < 0.5f;
 }
 
-/// What a glowing surface met by a ray counts beside light samples of its lamp (power heuristic).
+/// The weight of the glow of a surface that a ray met, where the same light is found by samples of its lamp too (power
+/// heuristic).
 float share_of_ray(Surface s, ViewRay ray) LW_MEMBER {
     if (!has_mesh_lamps || s.light < 0 || ray.pdf <= 0.0f) return 1.0f;
     Light lamp = light_at(uint(s.light));
@@ -227,7 +235,7 @@ float share_of_ray(Surface s, ViewRay ray) LW_MEMBER {
     return by_rays * by_rays / max(by_rays * by_rays + by_samples * by_samples, 1e-30f);
 }
 
-/// Where a path ends, and the light of the glowing surfaces on its way.
+/// The end of a path, and the glow of the surfaces on its way, weighted, cd/m2.
 struct PathEnd {
     Followed at;
     vec3 glow;
@@ -244,15 +252,16 @@ PathEnd end_nowhere() LW_MEMBER {
     return end;
 }
 
-/// How likely a path goes on from a surface by each way, in sum 1, or all 0.
+/// The probabilities of the ways in which a path goes on from a surface. They add up to 1, or all are 0.
 struct LobeProbabilities {
-    float here;  // not at all: the light of the diffuse lobe is gathered, and of small lamps, which no ray meets, by
-                 // rough ones
+    float here;  // the path ends: light of the diffuse lobe is gathered, and of small lamps, which no ray meets, by
+                 // rough lobes
     float reflected;
     float through;
 };
 
-/// By what the facet does that the lobes sample with `u`: beside one that reflects totally, others may pass.
+/// The probabilities for the microfacet that `u` samples. They must be those of this microfacet: where one reflects
+/// totally, another may transmit.
 LobeProbabilities lobe_probabilities(Seen seen, vec2 u) LW_MEMBER {
     Surface s = seen.surface;
     float nv = max(dot(microfacet_normal(s, seen.n_shading, seen.to_eye, u), seen.to_eye), 1e-4f);
@@ -271,8 +280,8 @@ LobeProbabilities lobe_probabilities(Seen seen, vec2 u) LW_MEMBER {
     return chance;
 }
 
-/// Follows a ray by way of mirrors, glass and holes to the first surface that shows light of its own lobes. `last`: no
-/// path goes on from there.
+/// Follows a ray by way of mirrors, glass and holes to the first surface whose light can be gathered. `last`: no other
+/// path will go on from there.
 PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
     PathEnd end = end_nowhere();
     for (uint met = 1u; met <= max_followed_surfaces; ++met) {
@@ -315,26 +324,26 @@ PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
         } else {
             ray = reflected_ray(seen, ray.medium, u);
             ray.weight *= weight / chance.reflected;
-            if (!has_direct) ray.pdf = 0.0f;  // no light samples beside it
+            if (!has_direct) ray.pdf = 0.0f;  // no lamp samples find the same light
         }
     }
     return end;
 }
 
-/// A place that a path came to.
+/// The surface at the end of a path, marked when its specular lobe must be left out.
 Seen see_followed(Followed at) LW_MEMBER {
     Seen seen = see(at.triangle, at.barycentrics, at.eye);
     if ((at.flags & followed_leaves_lobe) != 0u) seen.surface.flags |= lobe_is_followed;
     return seen;
 }
 
-/// Marks what the eye sees, for estimates to leave out what rays bring.
+/// Marks a surface that a pixel shows, so that estimates leave out the lobe that rays follow.
 Seen marked(Seen seen) LW_MEMBER {
     if (reflects_narrowly(seen.surface)) seen.surface.flags |= lobe_is_followed;
     return seen;
 }
 
-/// Adds what one path of a branch brings when the eye sees `seen` in `pixel`.
+/// Adds the light of one path of a branch from the surface `seen` that the pixel shows.
 void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathered) light) LW_MEMBER {
     Following following;
     following.branch = branch;
@@ -363,8 +372,8 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
     }
 }
 
-/// All light towards `eye` from (triangle, barycentrics), seen in `pixel`; illuminance, bandwidth and photons are of
-/// that place.
+/// All light from the point (triangle, barycentrics) towards `eye`. Illuminance, bandwidth and photons are those at
+/// that point. `seed` chooses points on mesh lamps, `pixel` the paths.
 Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed, uvec2 pixel) LW_MEMBER {
     Seen seen = marked(see(triangle, barycentrics, eye));
     Gathered light = estimate_at(seen);

@@ -1,4 +1,5 @@
-// Records of view paths that go on from what the eye sees (follow.glsl), shared by C++ and GLSL.
+// Records of followed view paths (follow.glsl), shared by C++ and GLSL. A path starts at the surface that a pixel shows
+// and goes on by reflection or transmission.
 #ifndef LW_FOLLOWED_H
 #define LW_FOLLOWED_H
 #include "photon_map.h"
@@ -6,39 +7,42 @@
 namespace lw {
 #endif
 
-/// Surfaces that a followed view path meets at most: mirrors, both sides of glass, holes.
+/// Most surfaces that a path meets before it ends: mirrors, both sides of glass, holes.
 LW_CONST uint max_followed_surfaces = 16u;
-/// A lobe that brings so much of what a surface shows is worth a path of its own where a path ends ...
+/// Where a path ends, another path goes on along the specular lobe when the lobe brings at least this part of what the
+/// surface shows ...
 LW_CONST float strong_lobe = 0.25f;
-/// ... until so many lobes were followed one after another.
+/// ... until this many lobes were followed one after another.
 LW_CONST uint max_lobes = 4u;
-/// At rough glass, how often a path ends to gather the light of small lamps, beside how often it goes on.
+/// At rough glass a path must end at times, to gather the light of small lamps that no ray can meet: least probability
+/// of that, over the probability to go on.
 LW_CONST float min_part_here = 0.5f;
 
-/// The ways on from a surface, each with its own list of pixels behind those of the rays.
+/// The two ways to go on from the surface that a pixel shows. Each has its own list of pixels, after the lists for the
+/// rays to lamps.
 LW_CONST uint branch_reflected = 0u;
 LW_CONST uint branch_through = 1u;
 LW_CONST uint branch_count = 2u;
 LW_INLINE uint pixel_lists(uint lamps, bool follows) { return ray_pairs(lamps) + (follows ? branch_count : 0u); }
 
-/// Where the view path of a pixel ended, for photons and rays to be gathered there.
+/// Where the path of a pixel ended. Photons and rays are gathered there.
 struct Followed {
-    uint triangle;  // or no_map: nowhere
+    uint triangle;  // or no_map: the path ended nowhere
     vec2 barycentrics;
-    vec3 eye;     // where the last part of the path came from
-    vec3 weight;  // of what is gathered
+    vec3 eye;     // the point from which the last ray of the path came, m
+    vec3 weight;  // of the light gathered there, RGB
     uint flags;
 };
-LW_CONST uint followed_leaves_lobe = 1u;  // the specular lobe is not gathered: the path might have gone on along it
+LW_CONST uint followed_leaves_lobe = 1u;  // estimates leave the specular lobe out: the path might have gone on along it
 LW_CONST uint followed_goes_on = 2u;      // another path goes on along the lobe
-LW_CONST uint followed_gives_illuminance = 4u;  // the pixel's illuminance is of this place
+LW_CONST uint followed_gives_illuminance = 4u;  // the pixel reports the illuminance of this place
 
-LW_CONST uint max_paths = 1024u;  // of a pixel, in one frame
+LW_CONST uint max_paths = 1024u;  // most paths of a pixel in one frame
 
-/// Which of the paths of a pixel is followed.
+/// Identifies one of the paths of a pixel.
 struct Following {
     uint branch;
-    uint depth;  // 0: from what the pixel sees; else from where the path of the depth before ended
+    uint depth;  // 0: starts at what the pixel shows; else where the path of the depth before ended
     uint path;   // one of `paths`
     uint paths;
 };

@@ -14,19 +14,20 @@ namespace lw {
 LW_CONST uint material_texels = 16u;
 LW_CONST uint texture_texels = 2u;
 
-// Photon records beyond the device's texel buffers are split into chunks of 2^shift records, one descriptor each.
+// Photon records that do not fit into one texel buffer of the device are split into chunks of 2^chunk_shift records,
+// with one descriptor each.
 LW_CONST uint max_chunks = 4u;
 
-/// The dispatches of the gather: photons at all pixels, then rays at those that need any; where view paths go on, a
-/// dispatch that follows them, and photons and rays at their ends.
+/// The kinds of dispatch of the gather: photons at all pixels; rays to lamps at those pixels that need any; and
+/// following of view paths, after which photons and rays are dispatched again for the ends of the paths.
 LW_CONST uint stage_photons = 0u;
 LW_CONST uint stage_rays = 1u;
 LW_CONST uint stage_follow = 2u;
 LW_CONST uint gather_group_side = 8u;  // pixels
 
-/// The arguments of the dispatch for rays to a pair of lamps; its pixels are listed from pair * pixels of the picture
-/// on. A dispatch for each pair: Mesa's software rasterizer ends all loops of an invocation after 65,535 rounds in sum,
-/// without a word, and rays to many lamps get there.
+/// A list of pixels: the arguments of its indirect dispatch, and how many pixels it has. The pixels of list i start at
+/// entry i * (pixels of the picture). There is a list for each pair of lamps, because Mesa's software rasterizer
+/// silently ends all loops of an invocation after 65,535 rounds in total, which rays to many lamps would reach.
 struct RayPixels {
     uint groups_x;
     uint groups_y;
@@ -34,13 +35,13 @@ struct RayPixels {
     uint count;
 };
 
-/// Triangles drawn as one instance. Few, because a rasterizer on the CPU walks all vertices of an instance again and
-/// again.
+/// Number of triangles drawn as one instance. It is small, because a software rasterizer walks all vertices of an
+/// instance several times.
 LW_CONST uint cluster_triangles = 64u;
 LW_CONST uint no_triangle = 0xffffffffu;
 
-/// What the user can dim and tint: photons of a lamp count `power` (intensity x factor), its own glow
-/// counts `factor`. Two texels.
+/// The present power of a lamp: its photons are multiplied by `power`, the glow of its surface by `factor`. Two
+/// texels.
 struct LampPower {
     vec4 power;   // RGB
     vec4 factor;  // RGB
@@ -52,7 +53,7 @@ struct Frame {
     vec3 camera_right;
     vec3 camera_up;
     vec3 camera_back;
-    vec2 projection;  // clip = view.xy * projection, divided by -view.z
+    vec2 projection;  // clip coordinates = view.xy * projection / -view.z
     vec2 jitter;      // clip units
     float near;       // m
     uint width;
@@ -61,13 +62,13 @@ struct Frame {
     float max_radius;  // m
     float inverse_flux_scale;
     uint triangle_limit;  // number of triangles
-    uint sample_index;    // 0 overwrites the picture, others add to it
+    uint sample_index;    // sample 0 overwrites the picture, others add to it
     float sample_weight;  // 1 / samples
-    float ray_epsilon;    // m, what shadow rays start above their surface
-    float scene_size;     // m, beyond which nothing stands
+    float ray_epsilon;    // m, how far above their surface rays start
+    float scene_size;     // m, the diagonal of the bounds: no ray needs to go farther
     uint shadow_rays;     // per emissive mesh
     float inverse_irradiance_scale;
-    uint ray_pair;   // of lamps that rays are traced to
+    uint ray_pair;   // the pair of lamps of this dispatch for rays
     uint following;  // pack_following()
 };
 

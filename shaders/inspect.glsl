@@ -1,8 +1,9 @@
-// What an estimate stands on, for the views that show it: bandwidth, photons, noise, the photons themselves. One text
-// for C++ and GLSL; needs shade.glsl.
+// Data about the smooth estimate at a point, for the views that show them: bandwidth, number of photons, noise, the
+// photons themselves. One text for C++ and GLSL; needs shade.glsl.
 
-/// `bandwidth` m and `photons` of the smooth estimate, the standard error of the illuminance relative to it (reflected
-/// light varies with its photons, direct light does not), and 1 + the lamp of a photon nearby, 0 where none lies.
+/// bandwidth, m, and number of photons of the smooth estimate; standard error of the illuminance over its value
+/// (photons have noise, direct light has none); and 1 + the lamp of the photon to draw at the point, 0 where none is
+/// near.
 struct Inspected {
     float bandwidth;
     float photons;
@@ -10,7 +11,7 @@ struct Inspected {
     float dot_lamp;
 };
 
-/// The photon within `reach` metres of a point that is nearest to it, as 1 + its lamp; 0 without one.
+/// 1 + the lamp of the nearest photon within `reach` m of a point; 0 when there is none.
 float photon_nearby(SurfaceGrid grid, vec3 local, float reach) LW_MEMBER {
     float nearest = reach * reach;
     float lamp = 0.0f;

@@ -1,9 +1,10 @@
-// The rays of rays.glsl, traced by the device (GL_EXT_ray_query): geometry 0 is opaque, the triangles of geometry 1 may
-// let light through (gpu/acceleration). bvh_triangle_at gives the triangles of both, one after the other.
+// The functions of rays.glsl by ray queries of the device (GL_EXT_ray_query). Geometry 0 is opaque; triangles of
+// geometry 1 may let light through (gpu/acceleration). bvh_triangle_at gives the triangles of geometry 0, then of
+// geometry 1.
 
 bool any_see_through() { return first_see_through != no_map; }
 
-/// The triangle with this index in its geometry.
+/// The scene's index of triangle `primitive` of a geometry.
 uint queried_triangle(int geometry, int primitive) {
     uint i = uint(primitive) + (geometry == 1 ? first_see_through : 0u);
     return bvh_triangle_at(i) & ~bvh_see_through;
@@ -27,7 +28,7 @@ vec3 shadow_ray(vec3 origin, vec3 direction, float far) {
     return ends ? vec3(0.0f) : light;
 }
 
-/// The nearest triangle along a ray, holes and glass included, or no_map; sets where it is met.
+/// The nearest triangle along a ray, including holes and glass, or no_map. Sets the barycentrics of the hit.
 uint nearest_triangle(vec3 origin, vec3 direction, float far, inout vec2 barycentrics) {
     rayQueryEXT query;
     rayQueryInitializeEXT(query, acceleration, gl_RayFlagsOpaqueEXT, 0xffu, origin, 0.0f, direction, max(far, 0.0f));

@@ -1,7 +1,7 @@
 // Rays through the hierarchy of shaders/bvh.h: shadow rays and the nearest triangle. One text for C++ and GLSL; the
 // including scope provides what surface.glsl and bsdf.glsl need, the functions bvh_node_at, bvh_triangle_at and the
-// constants bvh_node_count, has_alpha, has_transmission. Nothing heavy inside the traversal: some devices run both
-// sides of a branch.
+// constants bvh_node_count, has_alpha, has_transmission. The traversal holds no costly code, because some devices run
+// both sides of every branch.
 
 /// True when a triangle is crossed by origin + t direction, 0 < t < far (Moeller & Trumbore 1997, edges included); sets
 /// `hit` to the weights of its second and third corner and t.
@@ -22,14 +22,15 @@ bool crosses_triangle(uint triangle, vec3 origin, vec3 direction, float far, LW_
     return u >= -1e-6f && v >= -1e-6f && u + v <= 1.000001f && t > 0.0f && t < far;
 }
 
-/// Where a traversal stands: `node` is next once the triangles [first, last) of the list are tested.
+/// The state of a traversal: the entries [first, last) of the triangle list are tested next, then node `node`.
 struct Traversal {
     uint node;
     uint first;
     uint last;
 };
 
-/// Goes on to the next crossed triangle, which it returns with its bvh_see_through bit, or no_map at the end.
+/// Continues a traversal to the next triangle that the ray crosses. Returns its entry with the bvh_see_through bit, or
+/// no_map at the end.
 uint next_crossed(vec3 origin, vec3 direction, vec3 inverse, float far, LW_INOUT(Traversal) at,
                   LW_INOUT(vec3) hit) LW_MEMBER {
     while (at.first < at.last || at.node < bvh_node_count) {
@@ -83,7 +84,7 @@ vec3 shadow_ray(vec3 origin, vec3 direction, float far) LW_MEMBER {
     return light;
 }
 
-/// The nearest triangle along a ray, holes and glass included, or no_map; sets where it is met.
+/// The nearest triangle along a ray, including holes and glass, or no_map. Sets the barycentrics of the hit.
 uint nearest_triangle(vec3 origin, vec3 direction, float far, LW_INOUT(vec2) barycentrics) LW_MEMBER {
     vec3 inverse = inverse_of(direction);
     Traversal at = start_traversal();

@@ -1,5 +1,6 @@
-// Places in the list for the triangles that each block keeps: an exclusive scan in one group, each invocation a run of
-// blocks. Sizes the draws, and fills up their last instance.
+// Gives the triangles that each block keeps their places in the list, by an exclusive scan in one group, where each
+// invocation takes a run of blocks. Also sets the sizes of the draws, and fills the last instance of each with
+// no_triangle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -19,7 +20,8 @@ uint survivors_of(uint first, uint end) {
     return sum;
 }
 
-/// Blocks [first_block, end_block), their list from first_place on.
+/// Places the triangles of the blocks [first_block, end_block) in the list from `first_place` on, and sizes draw
+/// `kind`.
 void place(uint kind, uint first_block, uint end_block, uint first_place) {
     uint lane = gl_LocalInvocationIndex, run = (end_block - first_block + cull_group - 1u) / cull_group;
     uint first = min(first_block + lane * run, end_block), end = min(first + run, end_block);

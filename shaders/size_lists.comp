@@ -1,5 +1,5 @@
-// Sizes the dispatches of all lists of pixels by their counts: a second atomic for each listed pixel costs more, and so
-// does compiling gather.comp once more.
+// Sets the sizes of the dispatches for all lists of pixels from their counts. A shader of its own, as a second atomic
+// per listed pixel would cost more, and so would another pipeline of gather.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,5 @@
-// Radiance to what a screen shows: exposure, tone curve, sRGB codes, 8 bits. A pixel that is not a number is magenta.
+// Turns radiance into 8-bit sRGB codes for a screen: exposure, tone curve, encoding. A pixel that is not a number
+// becomes magenta.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

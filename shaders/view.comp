@@ -1,5 +1,5 @@
-// The picture as it is looked at: exposed, in false colours, or A beside B; sRGB codes, 8 bits. A few pixels' values go
-// back to the CPU for exposure and ranges.
+// Turns pictures into what the window shows, 8-bit sRGB codes: exposed, in false colours, or A beside B. Another
+// pipeline of it writes the values of a coarse grid of pixels for the CPU, for exposure and ranges.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -25,7 +25,8 @@ vec4 light_of(uint pixel, uint side) {
     return side == 0u ? texelFetch(light, int(pixel)) : texelFetch(other, int(pixel));
 }
 
-/// A (side 0) or B (side 1) between the four pixels around `at`, in pixels of the picture.
+/// The light of picture A (side 0) or B (side 1) at `at`, in pixels of the picture, interpolated between the four
+/// pixels around.
 vec4 light_between(vec2 at, uint side) {
     vec2 corner = at - 0.5f;
     ivec2 base = ivec2(floor(corner));
@@ -47,7 +48,7 @@ vec4 light_at_screen(vec2 at, uint side) {
 
 ivec2 nearest_pixel(vec2 at) { return is_scaled ? ivec2(at * vec2(push.picture) / vec2(push.screen)) : ivec2(at); }
 
-/// What the view shows in false colours, in its unit.
+/// The value that the view shows in false colours, in its unit.
 float value_at(vec2 at, bool right_side) {
     if (is_inspection(shown_view)) {
         vec4 inspected = texelFetch(other, int(pixel_at(nearest_pixel(at))));

@@ -1,4 +1,4 @@
-// What the walkthrough shows of a picture, shared by C++ and GLSL: views, push constants, false colours.
+// The views of the walkthrough, shared by C++ and GLSL: what is shown of a picture, push constants, false colours.
 #ifndef LW_VIEW_H
 #define LW_VIEW_H
 #include "bindings.h"
@@ -24,34 +24,34 @@ LW_CONST uint curve_linear = 1u;   // clipped at white
 LW_CONST uint curve_soft = 2u;     // x / (1 + x) on the luminance (Reinhard et al. 2002)
 LW_CONST uint curve_count = 3u;
 
-/// A grid of pixels whose values go back to the CPU each frame, for exposure and ranges.
+/// The size of a coarse grid of pixels whose values the CPU reads back each frame, for exposure and ranges.
 LW_CONST uint readback_columns = 64u;
 LW_CONST uint readback_rows = 36u;
 
 struct ReadbackPixel {
-    float luminance;    // cd/m2 of A, right of the split of B
+    float luminance;    // cd/m2, of A, or of B right of the split
     float illuminance;  // lx, likewise
-    float value;        // what the view shows in false colours
-    float seen;         // 0: no surface
+    float value;        // the value that the view shows in false colours
+    float seen;         // 1: the pixel shows a surface; 0: none
 };
 
 /// Push constants of the view pass.
 struct ViewPush {
     uvec2 screen;
-    uvec2 picture;      // pixels; may be fewer than the screen's while moving
+    uvec2 picture;      // size in pixels; may be smaller than the screen in motion
     float scale_light;  // 1 / samples summed
     float scale_fresh;  // the same in the first fresh_rows of the picture, which have one sample more
     uint fresh_rows;
     float exposure_ev;
-    float low;  // false colours from low to high
+    float low;  // ends of the range of the false colours
     float high;
     uint logarithmic;
-    uint lines;   // isolux lines over the range, 0: none
-    float split;  // part of the width left of which A is shown, right of it B; 1: A alone
+    uint lines;   // number of isolux lines over the range; 0: none
+    float split;  // A is shown left of this part of the width, B right of it; 1: A alone
     uint bgr;     // 1: blue in the low byte
 };
 
-/// Display-linear colour of exposed RGB >= 0.
+/// Applies a tone curve to exposed RGB >= 0; returns a display-linear colour.
 LW_INLINE vec3 apply_curve(vec3 exposed, uint curve) {
     if (curve == curve_linear) return min(exposed, vec3(1.0f));
     if (curve == curve_neutral) return tone_curve(exposed);
@@ -95,7 +95,7 @@ LW_INLINE bool is_signed_view(uint view) { return view == view_difference || vie
 
 LW_INLINE bool is_inspection(uint view) { return view >= view_photons && view <= view_error; }
 
-/// Where `value` lies in the range, 0 to 1.
+/// Where `value` lies in the range from low (0) to high (1); not clamped.
 LW_INLINE float place_in_range(float value, float low, float high, bool logarithmic) {
     if (!logarithmic) return (value - low) / max(high - low, 1e-20f);
     float floor_value = max(low, 1e-6f);

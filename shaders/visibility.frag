@@ -1,5 +1,5 @@
-// Writes which triangle a pixel sees, and where on it. Cut-out texels let the view through, and glass
-// and blends where no ray follows what is behind them.
+// Writes the triangle that a pixel shows and the point on it. Holes of alpha masks let the view through, and so do
+// glass and blends when no rays follow what is behind them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,4 @@
-// Pulls the corners of the listed triangles, cluster_triangles in each instance, and projects them.
+// Reads the corners of the listed triangles, cluster_triangles in each instance, and projects them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -17,6 +17,6 @@ void main() {
     triangle = texelFetch(listed, int(place)).x;
     uint corner = uint(gl_VertexIndex) % 3u;
     barycentrics = vec2(corner == 1u ? 1.0f : 0.0f, corner == 2u ? 1.0f : 0.0f);
-    gl_Position = vec4(2.0f, 2.0f, 0.0f, 1.0f);  // outside: no triangle, at the end of the last instance
+    gl_Position = vec4(2.0f, 2.0f, 0.0f, 1.0f);  // outside the view, for entries without a triangle
     if (triangle != no_triangle) gl_Position = project(frame, corner_position(triangle, corner));
 }

@@ -8,7 +8,7 @@ namespace lw {
 
 enum class BindingSet { scene, picture, cull, view };
 
-/// The bindings of one descriptor set.
+/// The bindings of one descriptor set, in the order of the table.
 std::vector<Binding> bindings_of(BindingSet set);
 
 }  // namespace lw

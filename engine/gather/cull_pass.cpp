@@ -24,7 +24,7 @@ Cluster make_cluster(const Scene& scene, uint first) {
     return cluster;
 }
 
-/// True when some of the triangles are cut out, blended or transmissive.
+/// True when any triangle of the cluster is alpha-masked, blended or transmissive.
 bool is_see_through(const Scene& scene, const Cluster& cluster) {
     for (uint t = cluster.first; t < cluster.end; ++t) {
         const Material& m = scene.material_of(t);
@@ -33,7 +33,7 @@ bool is_see_through(const Scene& scene, const Cluster& cluster) {
     return false;
 }
 
-/// The opaque ones, then the others, each in the scene's order.
+/// All clusters: opaque ones, then see-through ones, each in the scene's order.
 struct Clusters {
     std::vector<Cluster> clusters;
     uint opaque;
@@ -50,7 +50,7 @@ Clusters find_clusters(const Scene& scene) {
     return {std::move(opaque), count};
 }
 
-/// All triangles, no_triangle at the end of clusters that are not full.
+/// The list for a draw without culling: all triangles, with no_triangle at the end of clusters that are not full.
 std::vector<uint> list_all(const std::vector<Cluster>& clusters) {
     std::vector<uint> listed;
     listed.reserve(clusters.size() * cluster_triangles);
@@ -60,8 +60,8 @@ std::vector<uint> list_all(const std::vector<Cluster>& clusters) {
     return listed;
 }
 
-/// Half a step of the rasterizer's subpixels by which it moves corners, and as much again, at least 1/512, for the
-/// projection's rounding.
+/// How far, in pixels, the rasterizer may move a corner: half a step of its subpixels, and as much again, at least
+/// 1/512, for rounding in the projection.
 float pixel_margin(const Device& device) {
     return 1.0f / float(1u << std::min(device.limits().subPixelPrecisionBits, 8u));
 }
@@ -116,7 +116,7 @@ void CullPass::record(vk::CommandBuffer commands, const Frame& frame) const {
     };
     const uint groups = (blocks_ + cull_group - 1) / cull_group;
     const auto draws = Stage::eDrawIndirect | Stage::eVertexShader;
-    stage_barrier(commands, draws | Stage::eComputeShader, Stage::eComputeShader);  // the frame before still draws
+    stage_barrier(commands, draws | Stage::eComputeShader, Stage::eComputeShader);  // the frame before may still draw
     dispatch(*cull_, groups);
     stage_barrier(commands, Stage::eComputeShader, Stage::eComputeShader);
     dispatch(*scan_, 1);

@@ -1,26 +1,27 @@
-// Lists the triangles that may cover the centre of a pixel, in the scene's order, for the draw (decision 0013): a
-// rasterizer on the CPU takes longer over a triangle without pixels than a compute shader. The picture is that of all
-// triangles.
+// Lists the triangles that may cover the centre of a pixel, in the scene's order, for the draw (docs/decisions/0013). A
+// software rasterizer takes longer for a triangle without pixels than this compute pass. The picture is the same as
+// with all triangles.
 #pragma once
 #include "gather/resident.h"
 #include "shaders/cull.h"
 
 namespace lw {
 
-/// Scenes of fewer triangles are drawn whole: the dispatches take longer than their triangles.
+/// Scenes with fewer triangles are drawn without culling, which would take longer than it saves.
 constexpr size_t min_culled = 4096;
 
 class CullPass {
   public:
-    /// `culled_from`: triangles of a scene from which on record() culls.
+    /// `culled_from`: record() culls when the scene has at least so many triangles.
     CullPass(const Device& device, const Resident& resident, size_t culled_from = min_culled);
-    /// Makes the list of a view. Afterwards descriptors() may be read by vertex shaders, and draw() be recorded.
+    /// Records the culling for a view. Afterwards vertex shaders may read descriptors(), and draw() may be recorded.
     void record(vk::CommandBuffer commands, const Frame& frame) const;
-    /// Draws what is listed of one kind of clusters, by a pipeline whose constant_first_listed is first_listed().
+    /// Records the draw of the listed triangles of one kind of clusters, opaque or see-through. The bound pipeline must
+    /// have first_listed() as its constant first_listed.
     void draw(vk::CommandBuffer commands, bool see_through) const;
     uint first_listed(bool see_through) const { return see_through ? first_see_through_ : 0; }
     const DescriptorSet& descriptors() const { return descriptors_; }
-    /// The draws of the last recorded and finished frame, of opaque clusters and of the others.
+    /// The arguments of the two draws of the last finished frame: of opaque and of see-through clusters.
     std::vector<DrawArguments> read_draws() const { return read_back<DrawArguments>(*device_, draws_, 2); }
 
   private:

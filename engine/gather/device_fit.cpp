@@ -18,7 +18,7 @@ std::string mebibytes(uint64_t bytes) {
 
 namespace {
 
-/// Bytes of the list of triangles to draw, and of what it is made with.
+/// Bytes of the list of triangles to draw and of the buffers of culling.
 uint64_t list_bytes(const Scene& scene) {
     const uint64_t clusters = (scene.triangles.size() + cluster_triangles - 1) / cluster_triangles;
     return clusters * (sizeof(Cluster) + blocks_per_cluster * sizeof(Survivors) + cluster_triangles * sizeof(uint));
@@ -28,7 +28,7 @@ uint64_t list_bytes(const Scene& scene) {
 /// cells.
 uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
-    // An acceleration structure and what building it takes; on Mesa's software rasterizer 70 bytes stay.
+    // For an acceleration structure and its build; on Mesa's software rasterizer 70 bytes remain after the build.
     const uint64_t rays_per_triangle = queries_rays ? 200 : 0;
     const uint64_t corner = 32 + (s.uv1.empty() ? 0 : 8) + (s.colors.empty() ? 0 : 16) + (s.tangents.empty() ? 0 : 16);
     return s.triangles.size() * (3 * corner + sizeof(uvec4) + rays_per_triangle) + list_bytes(s) + bytes(s.texels) +
@@ -36,7 +36,8 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
            m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
 }
 
-/// Photons of a map that fits beside `others` bytes, one significant digit: a map grows with its photons.
+/// The number of photons, to one significant digit, of a map that fits into the budget beside `others` bytes. Assumes
+/// that the map's size is proportional to its photons.
 uint64_t photons_that_fit(const PhotonMap& map, uint64_t others, uint64_t budget) {
     if (others >= budget) return 0;
     const double share = double(budget - others) / double(std::max<uint64_t>(map.bytes(), 1));
@@ -46,7 +47,7 @@ uint64_t photons_that_fit(const PhotonMap& map, uint64_t others, uint64_t budget
     return most / step * step;
 }
 
-/// Descriptors of a set that count as sampled images, which texel buffers do.
+/// The number of descriptors of a set that count as sampled images; texel buffers do.
 uint32_t sampled_images(BindingSet set) {
     uint32_t count = 0;
     for (const Binding& b : bindings_of(set))
@@ -74,8 +75,8 @@ void check_device(const Device& device, const Scene& scene, const PhotonMap& map
 }
 
 vk::Extent2D fit_pictures(const Device& device, const Resident& resident, vk::Extent2D size, uint pictures) {
-    constexpr uint64_t seen = sizeof(uvec4) + sizeof(float);  // what pixels see, and its depth
-    constexpr uint64_t read_back = 100;                       // per pixel: nine channels, and what they are made of
+    constexpr uint64_t seen = sizeof(uvec4) + sizeof(float);  // visibility and depth of a pixel
+    constexpr uint64_t read_back = 100;  // per pixel: nine channels and the buffers they are made from
     const uint lists = pixel_lists(uint(resident.scene().lights.size()), resident.may_follow());
     const uint64_t light = sizeof(vec4) + lists * sizeof(uint) + 4 + (resident.may_follow() ? sizeof(Followed) : 0);
     try {

@@ -1,6 +1,6 @@
-// A view that is made frame after frame without waiting: passes are recorded into the caller's commands, the picture
-// stays on the device. Two pictures of one visibility: A, and B or what the estimates stand on. Samples add up while
-// the view is still.
+// A view rendered frame after frame without waiting: passes are recorded into the caller's commands, and pictures stay
+// on the device. There are two pictures with the same visibility: A, and B for a comparison or for values of an
+// inspecting view. Samples add up while the view is still.
 #pragma once
 #include <map>
 #include <memory>
@@ -21,22 +21,22 @@ class LiveView {
     LiveView(const Device& device, const Resident& resident, vk::Extent2D size);
 
     vk::Extent2D size() const { return size_; }
-    /// Records what each pixel sees. `frame` may have fewer pixels than size().
+    /// Records the visibility pass. `frame` may have fewer pixels than size().
     void record_visibility(vk::CommandBuffer commands, const Frame& frame) const;
-    /// Records the light of one sample into a picture: frame.sample_index 0 overwrites, others are added. For a running
-    /// sum give every frame the sample_weight 1. Sample 0, all there is in motion, follows the lobes of mirrors alone;
-    /// sample 1 follows all and replaces it in the sum. `lamps`: setting of Resident::set_lamp_factors(). Throws Error
-    /// for too many neighbours of the exact mode.
+    /// Records the gather of one sample into a picture. Sample 0 (frame.sample_index) overwrites the picture, later
+    /// ones are added; for a running sum every frame has sample_weight 1. Sample 0, the only one in motion, follows
+    /// mirrors and glass alone; sample 1 follows all lobes and takes its place in the sum. `lamps`: the setting of
+    /// Resident::set_lamp_factors(). Throws Error when the exact mode is asked for too many neighbours.
     void record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
                       uint lamps = 0, Rows rows = {});
-    /// Records the screen picture, and the readback of frame slot 0 or 1. Afterwards screen() may be copied.
+    /// Records the view pass: writes screen(), which may be copied afterwards, and the readback of frame slot 0 or 1.
     void record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot);
     /// sRGB codes of the last view, 4 bytes a pixel.
     const Buffer& screen() const { return a_.screen(); }
-    /// What record_view() wrote into a slot; its commands must have finished.
+    /// The readback that record_view() wrote into a slot; its commands must have finished.
     std::vector<ReadbackPixel> readback(uint slot) const { return view_.readback(slot); }
-    /// The channels of Rendering::image of picture A, seen by `camera`, divided by the `samples` in it, one more in its
-    /// first `fresh_rows`; waits for the device.
+    /// Picture A as an image with the channels of Rendering::image, divided by the number of samples: `samples`, and
+    /// one more in the first `fresh_rows` rows. Waits for the device.
     Image read_values(const Camera& camera, vk::Extent2D picture_size, uint samples, uint fresh_rows = 0) const;
 
   private:

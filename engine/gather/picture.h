@@ -1,4 +1,4 @@
-// The picture being made, in GPU memory, as descriptor set 1 of gather and tone mapping (shaders/frame.h).
+// The buffers of a picture in GPU memory, as descriptor set 1 of gather and tone mapping (shaders/binding_table.h).
 #pragma once
 #include "gather/resident.h"
 #include "gather/visibility_pass.h"
@@ -7,8 +7,8 @@ namespace lw {
 
 class Picture {
   public:
-    /// Throws Error when a plane of this size is beyond the device's buffers.
-    /// With lists of pixels, and where paths end when view paths may go on, as the resident scene needs them.
+    /// Makes the buffers for a picture as large as `visibility`: light, lists of pixels and, when view paths may go on
+    /// in the resident scene, the ends of paths. Throws Error when one is too large for the device.
     Picture(const Device& device, const Target& visibility, const Resident& resident);
     const DescriptorSet& descriptors() const { return descriptors_; }
     const Buffer& radiance() const { return radiance_; }    // vec4: RGB cd/m2, illuminance lx

@@ -16,7 +16,8 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Points around 0, in pixels: of the R3 sequence (Roberts 2018), not to keep step with the lobes' and lamps' R2.
+/// The offset of a sample from the pixel's centre, in pixels: from the R3 sequence (Roberts 2018), so that it is not
+/// correlated with the R2 sequences of lobes and lamps.
 vec2 pixel_offset(uint index, uint count) {
     if (count == 1) return vec2(0);
     const double x = 0.5 + double(index) * 0.8191725133961645;
@@ -33,7 +34,7 @@ PassTimes median_times(const std::vector<PassTimes>& frames) {
     return {median(visibility), median(gather), 0};
 }
 
-/// Shading normal turned to the camera, and metres along its axis.
+/// The shading normal, turned to the camera, and in w the depth along the camera's axis, m.
 vec4 normal_and_depth(const Surface& s, const Camera& camera) {
     const vec3 to_camera = camera.position - s.position;
     const bool front = dot(s.geometric_normal, to_camera) >= 0;
@@ -90,7 +91,7 @@ Rendering Renderer::render(const Camera& camera, const RenderSettings& settings)
     return result;
 }
 
-/// One submission per sample, so that none lasts long enough to trip a driver's watchdog.
+/// Renders all samples, each in a submission of its own, so that none lasts long enough for a driver's watchdog.
 PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& settings) const {
     const uint samples = std::max(1u, settings.samples);
     const Timestamps times(*device_, 3);

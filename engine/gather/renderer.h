@@ -1,4 +1,4 @@
-// A view of a resident scene: visibility, gather and tone mapping in order, then pixels back on the CPU.
+// Renders views of a resident scene: visibility, gather and tone mapping in order, then reads the pixels back.
 #pragma once
 #include <memory>
 #include <optional>
@@ -13,10 +13,10 @@ namespace lw {
 
 struct RenderSettings {
     GatherSettings gather;
-    std::optional<float> exposure_ev;  // EV100; none: from the picture
+    std::optional<float> exposure_ev;  // EV100; nothing: from the picture
     uint samples = 1;                  // jittered views averaged per pixel
-    uint frames = 1;                   // how often the same picture is made, for the times
-    bool centred = false;              // the views pass the pixels' centres, as those of a reference
+    uint frames = 1;                   // how often the picture is made, to measure times
+    bool centred = false;              // all samples go through the pixels' centres, as those of a reference
 };
 
 /// Medians over the frames, from GPU timestamps.
@@ -37,9 +37,9 @@ class Renderer {
   public:
     /// Device and resident scene must outlive it. Throws Error when the size is beyond the device. width, height > 0.
     Renderer(const Device& device, const Resident& resident, uint width, uint height);
-    /// Throws Error when the exact mode is asked for too many neighbours.
+    /// Renders a picture and waits for it. Throws Error when the exact mode is asked for too many neighbours.
     Rendering render(const Camera& camera, const RenderSettings& settings);
-    /// What the pixels saw in the last sample of the last render.
+    /// The visibility of the last sample of the last render.
     std::vector<VisibleSample> visible_samples() const { return visibility_.read_samples(); }
 
   private:
@@ -58,11 +58,12 @@ class Renderer {
     std::unique_ptr<GatherPass> gather_;
 };
 
-/// The channels of Rendering::image of a picture of `size` pixels seen by a camera; waits.
+/// A picture of `size` pixels as an image with the channels of Rendering::image. Waits for the device. `visible`: what
+/// its pixels see.
 Image read_picture(const Device& device, const Scene& scene, const Camera& camera, const Picture& picture,
                    vk::Extent2D size, const std::vector<VisibleSample>& visible);
 
-/// The push constants of sample `index` of `count` of a view; jitter inside the pixel when count > 1.
+/// The push constants of sample `index` of `count` of a view. The samples are spread inside the pixel when count > 1.
 Frame make_frame(const Camera& camera, vk::Extent2D size, uint index, uint count);
 
 }  // namespace lw

@@ -1,4 +1,4 @@
-// Radiance of the picture to sRGB codes for a screen (shaders/tonemap.glsl).
+// Tone mapping: turns the radiance of a picture into sRGB codes for a screen (shaders/tonemap.glsl).
 #pragma once
 #include "gather/picture.h"
 

@@ -1,5 +1,5 @@
-// Turns pictures into the sRGB codes that a window shows (shaders/view.comp): exposed, in false colours, or A beside B.
-// Copies a grid of their values to the CPU (the readback), which can be read once the frame's commands have finished.
+// Turns pictures into what the window shows (shaders/view.comp): exposed, in false colours, A beside B. Also copies a
+// coarse grid of their values, which the CPU reads a frame later: the readback.
 #pragma once
 #include <array>
 #include <map>
@@ -9,12 +9,12 @@
 
 namespace lw {
 
-/// What the view pass is specialized for: one pipeline for each.
+/// The settings of the view pass that need a pipeline of their own.
 struct ViewKind {
     uint view = view_shaded;
     uint curve = curve_neutral;
     bool has_lines = false;
-    bool has_split = false;  // B to the right of push.split
+    bool has_split = false;  // B is shown right of push.split
     auto operator<=>(const ViewKind&) const = default;
 };
 
@@ -22,10 +22,11 @@ class ViewPass {
   public:
     static constexpr uint slots = 2;
 
-    /// Reads a and b and what their pixels see, writes the screen of a. All must outlive it.
+    /// Reads pictures a and b and their visibility, writes the screen buffer of a. All must outlive it.
     ViewPass(const Device& device, const Target& visibility, const Picture& a, const Picture& b);
     void record(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot);
-    /// readback_columns x readback_rows values of a slot whose commands have finished.
+    /// The readback of a slot: readback_columns x readback_rows values, row by row. The slot's commands must have
+    /// finished.
     std::vector<ReadbackPixel> readback(uint slot) const;
 
   private:

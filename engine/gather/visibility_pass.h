@@ -1,4 +1,5 @@
-// Rasterises the scene: per pixel the triangle that is seen and where on it. Cut-outs and glass let the view through.
+// Rasterises the scene: for each pixel the triangle it shows and the point on it. Holes of alpha masks let the view
+// through, and so do glass and blends when no rays follow what is behind them.
 #pragma once
 #include <array>
 
@@ -7,7 +8,7 @@
 
 namespace lw {
 
-/// What one pixel sees, as the visibility texture holds it.
+/// What one pixel shows, as stored in the visibility texture.
 struct VisibleSample {
     uint triangle = no_triangle;
     vec2 barycentrics{0};  // weights of the second and third vertex
@@ -17,10 +18,10 @@ static_assert(sizeof(VisibleSample) == 16);
 
 class VisibilityPass {
   public:
-    /// `culled_from`: triangles of a scene from which on those without a pixel are left out.
+    /// `culled_from`: triangles without a pixel are left out when the scene has at least so many triangles.
     VisibilityPass(const Device& device, const Resident& resident, vk::Extent2D size, size_t culled_from = min_culled);
-    /// Draws frame.width x frame.height pixels from the top left corner, at most the pass's size. Afterwards texture()
-    /// is readable by compute shaders.
+    /// Records the draw of frame.width x frame.height pixels, from the top left corner and at most as many as the pass
+    /// has. Afterwards compute shaders may read texture().
     void record(vk::CommandBuffer commands, const Frame& frame) const;
     const Target& texture() const { return visible_; }
     /// The samples of the last recorded and finished frame, row 0 on top.
@@ -35,7 +36,7 @@ class VisibilityPass {
     Target visible_;
     Target depth_;
     vk::UniquePipelineLayout layout_;
-    std::array<vk::UniquePipeline, 2> pipelines_;  // of opaque clusters, and of those that discard pixels
+    std::array<vk::UniquePipeline, 2> pipelines_;  // for opaque clusters, and for those that discard pixels
 };
 
 }  // namespace lw

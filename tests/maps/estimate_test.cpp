@@ -12,7 +12,6 @@
 #include "benchmark/rooms.h"
 #include "maps/bake.h"
 #include "maps/build.h"
-#include "maps/packing.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
 #include "trace/build_bvh.h"
@@ -318,34 +317,6 @@ TEST(Estimate, ReferencesPerPhotonStayBounded) {
         const Baked baked(name);
         EXPECT_LE(double(baked.map.places.size()) / double(baked.map.stored_photons), 2.5) << name;
     }
-}
-
-TEST(Packing, RoundTripsWithinItsStep) {
-    Rng rng(1, 1, 1);
-    for (int i = 0; i < 10000; ++i) {
-        const float scale = std::exp2(24 * rng.next() - 12);
-        const vec3 c(scale * rng.next(), scale * rng.next(), scale);
-        const vec3 got = unpack_rgb9e5(pack_rgb9e5(c));
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[k], c[k], scale / 500);
-        const vec3 d = normalize(vec3(rng.next() - 0.5f, rng.next() - 0.5f, rng.next() - 0.5f) + vec3(1e-4f));
-        const float degree = lw_pi / 180;
-        vec3 mean(0);
-        for (int k = 0; k < 256; ++k) {
-            const vec3 near =
-                unpack_direction(pack_direction(d, vec2(float(k % 16) + 0.5f, float(k / 16) + 0.5f) / 16.0f));
-            EXPECT_GT(dot(d, near), std::cos(2.0f * degree));
-            mean += near;
-        }
-        EXPECT_GT(dot(d, normalize(mean)), std::cos(0.15f * degree));
-    }
-    for (int k = 0; k < 3; ++k)
-        for (float side : {-1.0f, 1.0f}) {
-            vec3 axis(0);
-            axis[k] = side;
-            EXPECT_EQ(unpack_direction(pack_direction(axis, vec2(0.5f))), axis);
-        }
-    EXPECT_EQ(pack_rgb9e5(vec3(0)), 0u);
-    EXPECT_EQ(pack_rgb9e5(vec3(std::nanf(""), -1, 0)), 0u);
 }
 
 }  // namespace
