@@ -129,15 +129,15 @@ void apply_key(Session& s, Window& window, const KeyPress& press) {
     }
 }
 
-void apply_click(Session& s, Window& window, const Click& click, const PhotonMap* map, vec2 size) {
+void apply_click(Session& s, Window& window, const Click& click, const Probe* probe, vec2 size) {
     const vec2 at = window.is_captured() ? 0.5f * size : vec2(click.x, click.y);
     const int lamp = click.right || s.fields.chooses ? -1 : lamp_at(s, at, size);
     if (s.fields.chooses && !click.right) {
         choose_corner(s, at, size);
     } else if (lamp >= 0) {
         s.lighting.selected = lamp;
-    } else if (map && (click.right || (window.is_captured() && s.metering.on))) {
-        pin_at(s, *map, at, size);
+    } else if (probe && (click.right || (window.is_captured() && s.metering.on))) {
+        pin_at(s, *probe, at, size);
     } else if (!click.right) {
         window.capture_mouse(true);
     }
@@ -159,7 +159,7 @@ WalkInput walk_input(const Window& window, const Events& events, PanelCapture ca
     return {input.move + pad.move, input.turn + pad.turn, input.fast || pad.fast};
 }
 
-void apply_actions(Session& s, Window& window, const Events& events, PanelCapture capture, const PhotonMap* map) {
+void apply_actions(Session& s, Window& window, const Events& events, PanelCapture capture, const Probe* probe) {
     const vec2 size(float(events.size.width), float(events.size.height));
     for (const auto& action : events.actions) {
         if (const auto* press = std::get_if<KeyPress>(&action)) {
@@ -168,7 +168,7 @@ void apply_actions(Session& s, Window& window, const Events& events, PanelCaptur
         } else if (capture.mouse) {
             continue;
         } else if (const auto* click = std::get_if<Click>(&action)) {
-            apply_click(s, window, *click, map, size);
+            apply_click(s, window, *click, probe, size);
         } else {
             dim_selected(s, dimmer_step * std::get<Scroll>(action).turns);
         }

@@ -39,8 +39,8 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--play", o.play.path, "replay this recorded walk without a window and end");
     app.add_option("--frames", o.play.frames, "with --play: folder for a PNG of every frame");
     app.add_option("--timings", o.play.timings, "with --play: CSV of the milliseconds of every frame and pass");
-    app.add_option("--gather", o.gather, "with --play: cached (irradiance of the bake), smooth or exact (photons)")
-        ->check(CLI::IsMember({"smooth", "exact", "cached"}))
+    app.add_option("--gather", o.gather, "with --play: " + lw::gather_mode_help())
+        ->check(CLI::IsMember(lw::gather_mode_names()))
         ->capture_default_str();
     app.add_option("--neighbours", o.play.gather.neighbours, "with --play: photons per estimate")
         ->check(CLI::Range(1, 1000000))
@@ -76,9 +76,7 @@ void run(Options& o) {
     play.ambiance = walk.ambiance;
     play.photometry = walk.photometry;
     if (!o.size.empty()) play.size = walk.size;
-    play.gather.mode = o.gather == "exact"    ? lw::gather_mode_exact
-                       : o.gather == "smooth" ? lw::gather_mode_smooth
-                                              : lw::gather_mode_cached;
+    play.gather.mode = lw::gather_mode_named(o.gather);
     lw::play(play);
 }
 

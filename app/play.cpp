@@ -74,8 +74,7 @@ double median_of(const std::vector<FrameTimes>& frames, double (*value)(const Fr
 }
 
 std::string settings_text(const GatherSettings& gather, uint samples) {
-    constexpr const char* modes[] = {"exact photons", "smooth photons", "cached irradiance"};
-    std::string text = modes[gather.mode];
+    std::string text = gather_mode(gather.mode).title;
     if (gather.mode != gather_mode_cached) text += ", " + std::to_string(gather.neighbours) + " photons per estimate";
     text += ", " + std::to_string(gather.shadow_rays) + " shadow rays per emissive mesh, ";
     return text + std::to_string(samples) + (samples == 1 ? " view per pixel" : " views per pixel");

@@ -3,35 +3,6 @@
 // cells. One text for C++ and GLSL; needs gather.glsl, the functions caustic_map_of, cell_word and the constants
 // has_caustics, has_smooth_caustics, has_visible_lamps, light_count.
 
-/// Radius that holds caustic_neighbours photons, from the counts of a growing window of cells. Few photons make small
-/// grids of small cells: the window starts where it meets the grid and grows in proportion.
-float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
-    ivec2 cell = cell_of(local, grid);
-    ivec2 last = ivec2(int(grid.columns) - 1, int(grid.rows) - 1);
-    int ring = first_ring(grid, cell);
-    int last_ring = int(grid.radius / grid.cell_size) + 1;
-    if (ring > last_ring) return grid.radius;
-    float count = 0.0f;
-    float area = 0.0f;
-    for (;;) {
-        int x0 = max(cell.x - ring, 0);
-        int x1 = min(cell.x + ring, last.x);
-        int y0 = max(cell.y - ring, 0);
-        int y1 = min(cell.y + ring, last.y);
-        count = 0.0f;
-        for (int y = y0; y <= y1; ++y) {
-            uvec2 span = row_span(grid, x0, x1, y);
-            count += float(span.y - span.x);
-        }
-        area = float(x1 - x0 + 1) * float(y1 - y0 + 1) * grid.cell_size * grid.cell_size;
-        if (count >= 1.25f * caustic_neighbours || ring > last_ring || covers_grid(grid, cell, ring)) break;
-        ring += max(ring / 8, 1);
-    }
-    if (count < 1.0f) return grid.radius;
-    return clamp(sqrt(caustic_neighbours * area / (lw_pi * count)), 0.02f * min(grid.cell_size, grid.radius),
-                 grid.radius);
-}
-
 /// The part of the caustics at a place that the light of its cell does not hold.
 float caustics_left(MapPlace at) LW_MEMBER {
     if (!has_smooth_caustics || !has_visible_lamps || gather_mode != gather_mode_cached || at.map == no_map)
@@ -48,11 +19,7 @@ void add_caustics(uint triangle, bool front, float left, MapPlace at, Surface s,
     vec3 local = position_in_grid(grid, s.position);
     float radius = caustic_radius(grid, local);
     float r2 = radius * radius;
-    float peak = 2.0f / (lw_pi * r2);
-    if (has_coverage && at.map != no_map) {  // kernels much smaller than the coverage's least one hardly reach a border
-        float wide = min(4.0f * radius / grid.radius, 1.0f);
-        peak /= mix(1.0f, coverage_at(at, radius), wide);
-    }
+    float peak = kernel_peak(r2) / caustic_coverage(at, grid, radius);
     Gathered sum = no_light();
     int y1 = min(int(floor((local.y + radius) / grid.cell_size)), int(grid.rows) - 1);
     for (int y = max(int(floor((local.y - radius) / grid.cell_size)), 0); y <= y1; ++y) {
@@ -63,7 +30,7 @@ void add_caustics(uint triangle, bool front, float left, MapPlace at, Surface s,
             vec3 d = place_in_grid(place, grid) - local;
             float d2 = dot(d, d);
             if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
-            add_photon(i, place, 1.0f - d2 / r2, s, n_geometric, n_shading, to_view, sum);
+            add_photon(i, place, kernel_shape(d2 / r2), s, n_geometric, n_shading, to_view, sum);
         }
     }
     add_up(peak, s, n_shading, to_view, sum);

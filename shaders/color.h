@@ -1,4 +1,4 @@
-// Luminance of linear Rec. 709, shared by C++ and GLSL.
+// Numbers that stand for a colour of linear RGB, shared by C++ and GLSL.
 #ifndef LW_COLOR_H
 #define LW_COLOR_H
 #include "types.h"
@@ -6,10 +6,17 @@
 namespace lw {
 #endif
 
-LW_INLINE float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f)); }
+/// Of the channels of linear sRGB, Rec. 709.
+LW_CONST vec3 luminance_weights = vec3(0.2126f, 0.7152f, 0.0722f);
+
+/// cd/m2 of radiance, lux of irradiance, lm of flux.
+LW_INLINE float luminance(vec3 rgb) { return dot(rgb, luminance_weights); }
+
+/// The largest of the channels.
+LW_INLINE float largest(vec3 rgb) { return max(rgb.x, max(rgb.y, rgb.z)); }
 
 #ifdef __cplusplus
-/// The same for sums that need more digits.
+/// luminance() in double precision, for sums of many paths.
 inline double precise_luminance(vec3 rgb) {
     return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z);
 }

@@ -165,7 +165,7 @@ LampVisibility lamp_visibility(uint bits, uint mask, vec2 f, Surface s) LW_MEMBE
     bool behind = shows_points_behind(s);
     visible.by_rays = has_shadow_rays && (behind || (bits & (some_visible | some_hidden)) != some_visible);
     if (!has_shadow_rays && has_visible_lamps)
-        visible.passed = vec3(corners_set(bits >> 4, f));  // on no map: of no lamp
+        visible.passed = vec3(corners_set(seeing_corners(bits), f));  // on no map: of no lamp
     if (has_shadow_masks && !behind && (bits & has_shadow_mask) != 0u) {
         uvec4 points = shadow_mask(mask);
         visible.by_rays = has_shadow_rays && is_edge(points, f);
@@ -237,27 +237,28 @@ bool samples_lobe(Surface s) LW_MEMBER { return leaves_lobe_out(s) && s.roughnes
 /// One bit per lamp of a word of a cell, at its lowest: set for those of a pair that a pixel has to add. Hidden ones
 /// are skipped, and in the cached mode those that the light of the cell holds, unless a lobe is to show them.
 uint lamps_to_add(uint bits, uint pair, Surface s) LW_MEMBER {
-    uint skipped = (bits >> 1) & ~bits;
+    uint skipped = lamps_with(bits, some_hidden) & ~lamps_with(bits, some_visible);
     if (shows_points_behind(s)) skipped = 0u;
-    if (gather_mode == gather_mode_cached && !samples_lobe(s)) skipped |= bits >> 2;
+    if (gather_mode == gather_mode_cached && !samples_lobe(s)) skipped |= lamps_with(bits, in_cell_light);
     uint first = pair * lamps_per_pair;
     uint lamps = min(light_count - min(first, light_count), lamps_per_pair);
-    uint all = ((1u << (8u * lamps)) - 1u) << cell_lamp_shift(first);
-    return 0x01010101u & ~skipped & all;
+    uint all = ((1u << (bits_per_cell_lamp * lamps)) - 1u) << cell_lamp_shift(first);
+    return lowest_lamp_bits & ~skipped & all;
 }
 
 /// The shadow mask of the first lamp of a word that has one.
 uint first_shadow_mask(MapPlace at, uint word) LW_MEMBER {
     if (!has_shadow_masks || !has_visible_lamps || at.map == no_map) return 0u;
     uint mask = cell_word(at.cell * cell_words(light_count, true)) >> first_mask_shift;
-    for (uint before = 0u; before < word; ++before) mask += bitCount(lamp_bits(at, before) & 0x08080808u);
+    for (uint before = 0u; before < word; ++before)
+        mask += bitCount(lamps_with(lamp_bits(at, before), has_shadow_mask));
     return mask;
 }
 
 /// What is known of the lamp whose bits begin at `shift` in its word.
 LampVisibility lamp_visibility_in_word(MapPlace at, uint bits, uint shift, uint first_mask, Surface s) LW_MEMBER {
-    return lamp_visibility((bits >> shift) & 255u, first_mask + bitCount(bits & 0x08080808u & ((1u << shift) - 1u)),
-                           at.f, s);
+    uint masks_before = uint(bitCount(lamps_with(bits & ((1u << shift) - 1u), has_shadow_mask)));
+    return lamp_visibility(cell_lamp_bits(bits, shift), first_mask + masks_before, at.f, s);
 }
 
 /// Adds the direct light of one pair of lamps at a place.
@@ -269,6 +270,7 @@ void add_direct(MapPlace at, uint pair, Surface s, vec3 n_geometric, vec3 n_shad
     for (uint todo = lamps_to_add(bits, pair, s); todo != 0u; todo &= todo - 1u) {
         uint shift = uint(findLSB(todo));
         LampVisibility visible = lamp_visibility_in_word(at, bits, shift, first_mask, s);
-        add_lamp(word * cell_lamps_per_word + shift / 8u, visible, s, n_geometric, n_shading, to_view, points, sum);
+        add_lamp(word * cell_lamps_per_word + shift / bits_per_cell_lamp, visible, s, n_geometric, n_shading, to_view,
+                 points, sum);
     }
 }

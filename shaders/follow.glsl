@@ -1,8 +1,9 @@
 // Followed view paths. From the surface that a pixel shows they go on along specular lobes too narrow for photons,
 // through glass and blends, and by way of mirrors, to a surface where light is gathered. Sampling follows
 // trace/path_tracer: visible normals (Heitz 2018), one Fresnel factor for both sides, absorption in volumes, blends
-// passed at random. One text for C++ and GLSL; needs followed.h, shade.glsl, rays.glsl and the constants has_followed,
-// follows_through, followed_roughness. All loops are bounded, because some devices silently end long ones.
+// passed at random. One text for C++ and GLSL; needs color.h, followed.h, shade.glsl, rays.glsl and the constants
+// has_followed, follows_through, followed_roughness. All loops are bounded, because some devices silently end long
+// ones.
 
 /// A ray of a path, with the weight of the light that it will meet.
 struct ViewRay {
@@ -64,8 +65,6 @@ float choice_number(PathNumbers numbers, uint surface) LW_MEMBER {
     start += numbers.shift.x + 0.25f * numbers.shift.y;
     return min(fract(start + float(numbers.index & 0xffffu) * 0.618033989f), 0.99999994f);
 }
-
-float largest(vec3 v) LW_MEMBER { return max(v.x, max(v.y, v.z)); }
 
 /// True for a surface whose specular lobe is followed by rays where a pixel shows the surface.
 bool reflects_narrowly(Surface s) LW_MEMBER {

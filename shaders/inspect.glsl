@@ -40,7 +40,7 @@ Inspected inspect(Seen seen, float dot_reach, uint seed) LW_MEMBER {
     vec3 local = seen.at.local;
     float radius = bandwidth_from_counts(grid, local);
     float r2 = radius * radius;
-    vec3 weights = vec3(0.2126f, 0.7152f, 0.0722f) * (2.0f / (lw_pi * r2) * inverse_flux_scale);
+    vec3 weights = luminance_weights * (kernel_peak(r2) * inverse_flux_scale);
     float sum = 0.0f;
     float squares = 0.0f;
     ivec2 low = cell_of(local - vec3(radius, radius, 0.0f), grid);
@@ -52,18 +52,18 @@ Inspected inspect(Seen seen, float dot_reach, uint seed) LW_MEMBER {
             float d2 = dot(d, d);
             if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
             vec3 flux = unpack_rgb9e5(photon_flux(i)) * lamp_power(light_of(photon_place(i)));
-            float lux = dot(flux, weights) * (1.0f - d2 / r2);
+            float lux = dot(flux, weights) * kernel_shape(d2 / r2);
             sum += lux;
             squares += lux * lux;
             result.photons += 1.0f;
         }
     }
-    float coverage = has_coverage ? coverage_at(seen.at, radius) : 1.0f;
+    float coverage = covered_part(seen.at, radius);
     Gathered direct = no_light();
     for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
         add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_geometric, seen.to_eye, first_points(seed),
                    direct);
-    float total = sum / coverage + dot(direct.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
+    float total = sum / coverage + luminance(direct.irradiance);
     result.bandwidth = radius;
     result.relative_error = total > 0.0f ? sqrt(squares) / coverage / total : 0.0f;
     result.dot_lamp = photon_nearby(grid, local, min(dot_reach, grid.radius));

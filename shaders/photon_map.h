@@ -1,6 +1,7 @@
 // Photon map records and their packing, shared by C++ and GLSL: CPU array = file bytes = GPU bytes.
 #ifndef LW_PHOTON_MAP_H
 #define LW_PHOTON_MAP_H
+#include "kernel.h"
 #include "types.h"
 #ifdef __cplusplus
 namespace lw {
@@ -83,7 +84,22 @@ LW_CONST uint first_mask_shift = 4u;
 LW_CONST uint lamps_per_pair = 2u;
 LW_INLINE uint ray_pairs(uint lamps) { return max((lamps + lamps_per_pair - 1u) / lamps_per_pair, 1u); }
 LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
-LW_INLINE uint cell_lamp_shift(uint lamp) { return 8u * (lamp % cell_lamps_per_word); }
+LW_CONST uint bits_per_cell_lamp = 8u;
+LW_INLINE uint cell_lamp_shift(uint lamp) { return bits_per_cell_lamp * (lamp % cell_lamps_per_word); }
+/// What a cell knows of the lamp whose bits begin at `shift` in a word.
+LW_INLINE uint cell_lamp_bits(uint word, uint shift) { return (word >> shift) & 0xffu; }
+/// The lowest bit of each lamp of a word; and of those for which `mark` is set, some_visible to has_shadow_mask.
+LW_CONST uint lowest_lamp_bits = 0x01010101u;
+LW_INLINE uint lamps_with(uint word, uint mark) { return (word >> uint(findLSB(mark))) & lowest_lamp_bits; }
+/// The bits of the corners that see some of a lamp, as corners_set() takes them.
+LW_INLINE uint seeing_corners(uint lamp_bits) { return lamp_bits >> uint(findLSB(corner_sees)); }
+
+/// The part of the corners of a cell whose bits 0 to 3 are set, in the order of corner_sees, as seen from `f` in the
+/// cell.
+LW_INLINE float corners_set(uint bits, vec2 f) {
+    vec4 set = vec4(float(bits & 1u), float((bits >> 1) & 1u), float((bits >> 2) & 1u), float((bits >> 3) & 1u));
+    return mix(mix(set.x, set.y, f.x), mix(set.z, set.w, f.x), f.y);
+}
 
 /// Which of 8 x 8 points of a cell a lamp lights: bit 8 j + i of (lit_low, lit_high), points at the middles of texels,
 /// and the light that reaches those, RGB9E5.
@@ -127,6 +143,17 @@ struct Gathered {
 LW_INLINE vec3 place_in_grid(PhotonPlace place, SurfaceGrid grid) {
     return vec3(float(place.uv & 0xffffu) * grid.quantum.x, float(place.uv >> 16) * grid.quantum.y,
                 float(place.h_light_and_path & 0xffffu) * grid.quantum.z + grid.h_origin);
+}
+
+/// A point of the scene as u, v, h of the grid's frame.
+LW_INLINE vec3 position_in_grid(SurfaceGrid grid, vec3 position) {
+    vec3 offset = position - grid.origin;
+    return vec3(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+}
+
+/// The point of the scene at u, v, h of the grid's frame.
+LW_INLINE vec3 position_of(SurfaceGrid grid, vec3 local) {
+    return grid.origin + local.x * grid.u_axis + local.y * grid.v_axis + local.z * grid.normal;
 }
 
 LW_INLINE uint light_of(PhotonPlace place) { return (place.h_light_and_path >> 16) & light_mask; }

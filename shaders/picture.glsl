@@ -132,6 +132,7 @@ Light light_at(uint i) { return lights[i]; }
 
 #include "surface.glsl"
 #include "bsdf.glsl"
+#include "map_lookup.glsl"
 #include "gather.glsl"
 #include "caustics.glsl"
 #ifdef LW_RAY_QUERIES

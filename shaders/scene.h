@@ -95,7 +95,9 @@ struct Emitter {
     float area_below;
 };
 
-LW_CONST float lw_pi = 3.14159265358979f;
+/// The cross product of two edges of a triangle: along the normal of its front, as long as twice its area.
+LW_INLINE vec3 edge_product(vec3 a, vec3 b, vec3 c) { return cross(b - a, c - a); }
+
 /// Smallest GGX alpha that is evaluated as a lobe; smoother surfaces are followed as mirrors.
 LW_CONST float min_alpha = 1e-3f;
 

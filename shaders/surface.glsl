@@ -106,9 +106,9 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
 
     Surface s;
     s.position = b0 * p0 + b1 * p1 + b2 * p2;
-    vec3 cross_product = cross(p1 - p0, p2 - p0);
-    float cross_length = length(cross_product);
-    s.geometric_normal = cross_length > 0.0f ? cross_product / cross_length : vec3(0.0f, 1.0f, 0.0f);
+    vec3 product = edge_product(p0, p1, p2);
+    float twice_area = length(product);
+    s.geometric_normal = twice_area > 0.0f ? product / twice_area : vec3(0.0f, 1.0f, 0.0f);
     vec3 n = b0 * corner_normal(triangle, 0u) + b1 * corner_normal(triangle, 1u) + b2 * corner_normal(triangle, 2u);
     float n_length = length(n);
     s.normal = n_length > 1e-6f ? n / n_length : s.geometric_normal;

@@ -25,4 +25,13 @@ using uint = uint32_t;
 // A row of frame_constants.h or view_constants.h.
 #define LW_CONSTANT(type, name, value) layout(constant_id = __LINE__) const type name = value;
 #endif
+#ifdef __cplusplus
+namespace lw {
+#endif
+
+LW_CONST float lw_pi = 3.14159265358979f;
+
+#ifdef __cplusplus
+}  // namespace lw
+#endif
 #endif

@@ -14,7 +14,7 @@ layout(set = 0, binding = binding_view_light) uniform textureBuffer light;
 layout(set = 0, binding = binding_view_other) uniform textureBuffer other;
 layout(set = 0, binding = binding_view_visibility) uniform utexture2D visibility;
 layout(set = 0, binding = binding_view_screen, scalar) writeonly buffer Codes { uint codes[]; };
-layout(set = 0, binding = binding_view_readback, scalar) writeonly buffer Readback { ReadbackPixel readback_pixels[]; };
+layout(set = 0, binding = binding_view_readback, scalar) writeonly buffer Glances { ReadbackPixel readback_pixels[]; };
 
 uint pixel_at(ivec2 at) {
     ivec2 p = clamp(at, ivec2(0), ivec2(push.picture) - 1);

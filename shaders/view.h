@@ -2,6 +2,7 @@
 #ifndef LW_VIEW_H
 #define LW_VIEW_H
 #include "bindings.h"
+#include "color.h"
 #include "tonemap.glsl"
 #include "types.h"
 #ifdef __cplusplus
@@ -55,8 +56,7 @@ struct ViewPush {
 LW_INLINE vec3 apply_curve(vec3 exposed, uint curve) {
     if (curve == curve_linear) return min(exposed, vec3(1.0f));
     if (curve == curve_neutral) return tone_curve(exposed);
-    float l = 0.2126f * exposed.x + 0.7152f * exposed.y + 0.0722f * exposed.z;
-    return min(exposed * (1.0f / (1.0f + l)), vec3(1.0f));
+    return min(exposed * (1.0f / (1.0f + luminance(exposed))), vec3(1.0f));
 }
 
 /// sRGB colour of t in [0, 1], dark blue over green to red: "Turbo", fit of Mikhailov (2019), rises in lightness to the

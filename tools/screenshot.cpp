@@ -52,9 +52,8 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--neighbours", o.neighbours, "photons per estimate")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    app.add_option("--gather", o.gather,
-                   "cached (irradiance of the bake), smooth (photons, one pass) or exact (k nearest photons)")
-        ->check(CLI::IsMember({"smooth", "exact", "cached"}))
+    app.add_option("--gather", o.gather, lw::gather_mode_help())
+        ->check(CLI::IsMember(lw::gather_mode_names()))
         ->capture_default_str();
     app.add_option("--shadow-rays", o.shadow_rays,
                    "shadow rays per pixel and emissive mesh; 0: none at all, shadows as sharp as the bake's lattice")
@@ -96,10 +95,6 @@ std::string misuse_of(const Options& o) {
     for (const std::string& power : o.powers)
         if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
     return "";
-}
-
-uint32_t gather_mode(const std::string& name) {
-    return name == "exact" ? lw::gather_mode_exact : name == "cached" ? lw::gather_mode_cached : lw::gather_mode_smooth;
 }
 
 void print_lists(const Options& o) {
@@ -154,7 +149,8 @@ void take_screenshot(const Options& o) {
     resident.set_lamp_factors(factors);
     const vk::Extent2D size = picture_size(o, camera);
     lw::Renderer renderer(device, resident, size.width, size.height);
-    const lw::GatherSettings gather{gather_mode(o.gather), o.neighbours, o.shadow_rays, o.paths, o.followed_roughness};
+    const lw::GatherSettings gather{lw::gather_mode_named(o.gather), o.neighbours, o.shadow_rays, o.paths,
+                                    o.followed_roughness};
     const lw::Rendering picture = renderer.render(camera, {gather, o.exposure, o.samples, o.frames});
     refuse_validation_messages(device);
     lw::check_is_light(picture.image);

@@ -15,10 +15,8 @@
 namespace lw {
 namespace {
 
-Pin measured(const Session& s, const PhotonMap& map, const Hit& hit, vec3 viewer) {
-    const World& w = s.world;
-    const std::vector<vec3> powers = lamp_powers(w.scene, factors_now(s.lighting));
-    return {hit, viewer, measure(w.scene, w.caster, map, w.bvh, powers, hit, viewer)};
+Pin measured(const Session& s, const Probe& probe, const Hit& hit, vec3 viewer) {
+    return {hit, viewer, probe.measure(lamp_powers(s.world.scene, factors_now(s.lighting)), {hit, viewer})};
 }
 
 std::string quoted(const std::string& text) {
@@ -48,16 +46,16 @@ void write_table(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-void measure_again(Session& s, const PhotonMap& map, bool all) {
+void measure_again(Session& s, const Probe& probe, bool all) {
     s.metering.live.reset();
     if (s.metering.on)
-        if (const auto hit = hit_at(s, vec2(0.5f), vec2(1))) s.metering.live = measured(s, map, *hit, s.walker.eye);
+        if (const auto hit = hit_at(s, vec2(0.5f), vec2(1))) s.metering.live = measured(s, probe, *hit, s.walker.eye);
     if (all)
-        for (Pin& pin : s.metering.pins) pin = measured(s, map, pin.hit, pin.viewer);
+        for (Pin& pin : s.metering.pins) pin = measured(s, probe, pin.hit, pin.viewer);
 }
 
-void pin_at(Session& s, const PhotonMap& map, vec2 pixel, vec2 size) {
-    if (const auto hit = hit_at(s, pixel, size)) s.metering.pins.push_back(measured(s, map, *hit, s.walker.eye));
+void pin_at(Session& s, const Probe& probe, vec2 pixel, vec2 size) {
+    if (const auto hit = hit_at(s, pixel, size)) s.metering.pins.push_back(measured(s, probe, *hit, s.walker.eye));
 }
 
 void save_pins(Session& s) {

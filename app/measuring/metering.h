@@ -5,10 +5,10 @@
 namespace lw {
 
 /// Measures the point under the crosshair again and, with `all`, the pins.
-void measure_again(Session& session, const PhotonMap& map, bool all);
+void measure_again(Session& session, const Probe& probe, bool all);
 
 /// Measures the point that the picture (`size` pixels) shows at `pixel`, and keeps it as a pin.
-void pin_at(Session& session, const PhotonMap& map, vec2 pixel, vec2 size);
+void pin_at(Session& session, const Probe& probe, vec2 pixel, vec2 size);
 
 /// Writes the pins as a CSV file into the output folder; tells the user its name or the error.
 void save_pins(Session& session);

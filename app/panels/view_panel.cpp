@@ -107,11 +107,13 @@ void draw_comparison(Session& s) {
 }
 
 void draw_quality(Viewing& v, const FrameStatistics& statistics) {
-    constexpr Entry modes[] = {{gather_mode_exact, "exact: k nearest photons"},
-                               {gather_mode_smooth, "smooth: photons, one pass"},
-                               {gather_mode_cached, "cached: irradiance of the bake"}};
+    const auto text_of = [](const GatherMode& mode) { return std::string(mode.name) + ": " + mode.description; };
     ImGui::SetNextItemWidth(-1);
-    combo_box("##mode", modes, v.gather.mode);
+    if (ImGui::BeginCombo("##mode", text_of(gather_mode(v.gather.mode)).c_str())) {
+        for (const GatherMode& mode : gather_modes)
+            if (ImGui::Selectable(text_of(mode).c_str(), mode.mode == v.gather.mode)) v.gather.mode = mode.mode;
+        ImGui::EndCombo();
+    }
     int neighbours = int(v.gather.neighbours), rays = int(v.gather.shadow_rays), samples = int(v.max_samples);
     ImGui::SetNextItemWidth(110);
     if (ImGui::SliderInt("photons per estimate", &neighbours, 10, 1000, "%d", ImGuiSliderFlags_Logarithmic))

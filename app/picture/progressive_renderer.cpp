@@ -9,10 +9,6 @@ bool same_camera(const Camera& a, const Camera& b) {
     return a.position == b.position && a.rotation == b.rotation && a.yfov == b.yfov && a.near == b.near;
 }
 
-bool same_gather(const GatherSettings& a, const GatherSettings& b) {
-    return a.mode == b.mode && a.neighbours == b.neighbours && a.shadow_rays == b.shadow_rays;
-}
-
 vk::Extent2D divided(vk::Extent2D size, uint divisor) {
     return {std::max(1u, size.width / divisor), std::max(1u, size.height / divisor)};
 }
@@ -66,7 +62,7 @@ bool ProgressiveRenderer::shows(const FrameRequest& request, uint view) const {
     if (!drawn_) return false;
     const FrameRequest& d = drawn_->request;
     return same_camera(d.camera, request.camera) && d.factors_a == request.factors_a &&
-           d.factors_b == request.factors_b && same_gather(d.gather, request.gather) &&
+           d.factors_b == request.factors_b && d.gather == request.gather &&
            is_inspection(view) == is_inspection(drawn_->inspected_view);
 }
 

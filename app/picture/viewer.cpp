@@ -49,8 +49,10 @@ Viewer::Viewer(Window& window, Session& session, const DeviceSettings& device, b
 
 void Viewer::set_map(const SharedMap& map) {
     device_.handle().waitIdle();
+    probe_.reset();
     renderer_.reset();
     renderer_ = std::make_unique<ProgressiveRenderer>(device_, session_.world.scene, map, session_.world.bvh);
+    probe_ = std::make_unique<Probe>(session_.world.scene, session_.world.caster, *map, session_.world.bvh);
     session_.statistics.photons = map->stored_photons;
     measured_.clear();
 }
@@ -73,7 +75,7 @@ void Viewer::frame(const BakingState& baking) {
 
 void Viewer::take_input(const Events& events, float seconds) {
     const PanelCapture capture{overlay_.wants_mouse() && !window_.is_captured(), overlay_.wants_keyboard()};
-    apply_actions(session_, window_, events, capture, renderer_ ? &renderer_->map() : nullptr);
+    apply_actions(session_, window_, events, capture, probe_.get());
     apply_buttons(session_, events.buttons);
     advance(session_, walk_input(window_, events, capture, seconds), seconds);
     measure();
@@ -87,7 +89,7 @@ void Viewer::measure() {
     const bool lamps_changed = factors != measured_;
     const bool view_changed = camera.position != measured_eye_ || camera.rotation != measured_rotation_;
     if (!lamps_changed && !view_changed && session_.metering.on == session_.metering.live.has_value()) return;
-    measure_again(session_, renderer_->map(), lamps_changed);
+    measure_again(session_, *probe_, lamps_changed);
     if (lamps_changed) value_fields(session_.fields, factors);
     measured_ = factors;
     measured_eye_ = camera.position;

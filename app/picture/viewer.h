@@ -44,8 +44,9 @@ class Viewer {
     Presenter presenter_;
     Overlay overlay_;
     std::unique_ptr<ProgressiveRenderer> renderer_;
-    uint32_t generation_ = 0;  // Presenter::generation() of the images that the overlay draws on
-    double changed_ = 0;       // time at which the picture last started anew, s
+    std::unique_ptr<const Probe> probe_;  // of the renderer's map
+    uint32_t generation_ = 0;             // Presenter::generation() of the images that the overlay draws on
+    double changed_ = 0;                  // time at which the picture last started anew, s
     double last_, shown_;
     float seconds_ = 0;
     DynamicResolution resolution_;

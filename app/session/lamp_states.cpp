@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "shaders/color.h"
+
 namespace lw {
 namespace {
 

@@ -8,7 +8,7 @@
 #include "app/session/lamp_states.h"
 #include "app/session/world.h"
 #include "app/walk/places.h"
-#include "maps/probe.h"
+#include "measure/probe.h"
 
 namespace lw {
 

@@ -16,11 +16,6 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 
-/// Without shadow rays only mirrors are followed. Never more than 1: Resident::may_follow() relies on it.
-float followed_roughness(const GatherSettings& settings) {
-    return settings.shadow_rays > 0 ? std::min(settings.followed_roughness, 1.0f) : std::sqrt(min_alpha);
-}
-
 /// A pipeline of the gather and what it does.
 struct StagePipeline {
     vk::UniquePipeline* pipeline;
@@ -33,18 +28,12 @@ struct StagePipeline {
 FrameConstants constants_for(const Resident& resident, const GatherSettings& settings) {
     FrameConstants constants = resident.constants();
     constants.gather_mode = settings.mode;
-    constants.heap_size = settings.mode == 0 ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
-    // Without a lattice, as of a map without photons, only rays know what stands before a lamp.
-    constants.has_shadow_rays = settings.shadow_rays > 0 || !constants.has_visible_lamps;
+    constants.heap_size = settings.mode == gather_mode_exact ? std::bit_ceil(std::max(1u, settings.neighbours)) : 1u;
+    constants.has_shadow_rays = has_shadow_rays(settings, constants.has_visible_lamps);
     constants.followed_roughness = followed_roughness(settings);
     constants.has_followed = settings.mode != gather_mode_inspect &&
                              (resident.min_lobe() < followed_roughness(settings) || constants.follows_through);
     return constants;
-}
-
-std::array<uint, 4> pipeline_key(const GatherSettings& settings) {
-    return {settings.mode, settings.shadow_rays > 0, settings.mode == gather_mode_exact ? settings.neighbours : 0,
-            floatBitsToUint(settings.followed_roughness)};
 }
 
 Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps) {
@@ -62,8 +51,8 @@ Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& s
 
 GatherPass::GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings)
     : resident_(&resident), picture_(&picture), ray_pairs_(ray_pairs(uint(resident.scene().lights.size()))) {
-    if (settings.mode == 0 && settings.neighbours > PhotonEstimator::heap_size)
-        throw Error("gather: exact search takes at most " + std::to_string(PhotonEstimator::heap_size) + " neighbours");
+    if (settings.mode == gather_mode_exact && settings.neighbours > max_exact_neighbours)
+        throw Error("gather: exact search takes at most " + std::to_string(max_exact_neighbours) + " neighbours");
     const vk::DescriptorSetLayout sets[] = {resident.descriptors().layout(), picture.descriptors().layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(Frame));
     const FrameConstants constants = constants_for(resident, settings);

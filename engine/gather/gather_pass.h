@@ -4,15 +4,12 @@
 
 #include "gather/picture.h"
 #include "gather/resident.h"
-#include "maps/estimate.h"
+#include "maps/gather_settings.h"
 
 namespace lw {
 
 /// What the pipelines of a gather are compiled with: what the scene and the settings need.
 FrameConstants constants_for(const Resident& resident, const GatherSettings& settings);
-
-/// Settings with the same key share the pipelines of a GatherPass.
-std::array<uint, 4> pipeline_key(const GatherSettings& settings);
 
 /// The push constants of a view with what its passes need of the scene, its lamps at a setting, and the settings.
 Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps = 0);
@@ -24,7 +21,7 @@ struct Rows {
 
 class GatherPass {
   public:
-    /// Throws Error when the exact mode is asked for more neighbours than PhotonEstimator::heap_size.
+    /// Throws Error when the exact mode is asked for more than max_exact_neighbours.
     GatherPass(const Device& device, const Resident& resident, const Picture& picture, GatherSettings settings);
     /// Reads the visibility texture, writes the picture; for compute shaders and copies after a barrier.
     void record(vk::CommandBuffer commands, const Frame& frame) const { record(commands, frame, *picture_); }

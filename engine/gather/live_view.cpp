@@ -24,7 +24,7 @@ void LiveView::record_visibility(vk::CommandBuffer commands, const Frame& frame)
 }
 
 GatherPass& LiveView::pass_for(const GatherSettings& settings) {
-    std::unique_ptr<GatherPass>& pass = passes_[pipeline_key(settings)];
+    std::unique_ptr<GatherPass>& pass = passes_[pipeline_settings(settings)];
     if (!pass) pass = std::make_unique<GatherPass>(*device_, *resident_, a_, settings);
     return *pass;
 }

@@ -48,7 +48,7 @@ class LiveView {
     VisibilityPass visibility_;
     Picture a_, b_;
     ViewPass view_;
-    std::map<std::array<uint, 4>, std::unique_ptr<GatherPass>> passes_;  // by pipeline_key()
+    std::map<GatherSettings, std::unique_ptr<GatherPass>> passes_;  // of pipeline_settings()
 };
 
 }  // namespace lw

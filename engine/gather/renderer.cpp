@@ -70,7 +70,7 @@ Renderer::Renderer(const Device& device, const Resident& resident, uint width, u
       tonemap_(device, resident, picture_) {}
 
 void Renderer::choose_gather(GatherSettings settings) {
-    if (!gather_ || pipeline_key(settings) != pipeline_key(gather_settings_))
+    if (!gather_ || pipeline_settings(settings) != pipeline_settings(gather_settings_))
         gather_ = std::make_unique<GatherPass>(*device_, *resident_, picture_, settings);
     gather_settings_ = settings;
 }

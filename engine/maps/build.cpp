@@ -17,6 +17,7 @@
 #include "maps/shadow_masks.h"
 #include "maps/smooth_caustics.h"
 #include "maps/visibility.h"
+#include "scene/triangle.h"
 
 namespace lw {
 namespace {
@@ -82,10 +83,7 @@ LitPatches keep_lit_patches(const References& references, const Patches& patches
 
 double area_of(const Scene& scene) {
     double area = 0;
-    for (const uvec3& t : scene.triangles) {
-        const vec3 a = scene.positions[t.x];
-        area += 0.5 * double(length(cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
-    }
+    for (size_t t = 0; t < scene.triangles.size(); ++t) area += triangle_area(scene, t);
     return area;
 }
 

@@ -9,6 +9,7 @@
 #include "base/wide_vectors.h"
 #include "maps/kernel_weight.h"
 #include "scene/surface.h"
+#include "scene/triangle.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -25,14 +26,14 @@ class MapSamples {
         const CoverageLevels radii = radii_of_levels(grid);
         for (uint level = 0; level < coverage_levels; ++level) {
             inverse_radii2_[level] = 1 / (radii[level] * radii[level]);
-            peaks_[level] = 2 / lw_pi * inverse_radii2_[level];
+            // kernel_peak() but for the order of its factors, on which the last bit hangs.
+            peaks_[level] = kernel_height / lw_pi * inverse_radii2_[level];
         }
         vec2 high(-1e30f);
         low_ = vec2(1e30f);
         std::vector<vec4> unsorted;
         for (const uint* i = first; i != last; ++i) {
-            const vec3 offset = samples[*i].position - grid.origin;
-            const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+            const vec3 local = position_in_grid(grid, samples[*i].position);
             unsorted.emplace_back(local, samples[*i].flux.x);
             low_ = min(low_, vec2(local.x, local.y)), high = max(high, vec2(local.x, local.y));
         }
@@ -84,7 +85,7 @@ class MapSamples {
             std::array<float, lanes> parts{};
             for (uint i = 0; i < count; i += lanes)
                 for (uint lane = 0; lane < lanes; ++lane)
-                    parts[lane] += areas[i + lane] * positive(1 - squared[i + lane] * inverse_radii2_[level]);
+                    parts[lane] += areas[i + lane] * kernel_weight(squared[i + lane] * inverse_radii2_[level]);
             sums[level] += peaks_[level] * std::accumulate(parts.begin(), parts.end(), 0.0f);
         }
     }
@@ -97,12 +98,6 @@ class MapSamples {
     std::vector<uint> starts_;
     std::vector<float> u_, v_, h_, area_;  // in the order of the cells
 };
-
-double triangle_area(const Scene& scene, size_t triangle) {
-    const uvec3 c = scene.triangles[triangle];
-    const vec3 a = scene.positions[c.x];
-    return 0.5 * double(length(cross(scene.positions[c.y] - a, scene.positions[c.z] - a)));
-}
 
 /// The area a sample of each triangle stands for: at most `area`, and a patch has at least samples_of_patch.
 std::vector<float> areas_of_samples(const Scene& scene, const Patches& patches, float area) {
@@ -199,9 +194,8 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
         for (size_t t = k * chunk; t < std::min(counts.size(), (k + 1) * chunk); ++t) {
             if (!sides[2 * t] && !sides[2 * t + 1]) continue;
             const auto scramble = uint32_t(mix64(t));
-            const uvec3 c = scene.triangles[t];
-            const vec3 p0 = scene.positions[c.x], p1 = scene.positions[c.y], p2 = scene.positions[c.z];
-            const vec3 product = cross(p1 - p0, p2 - p0);
+            const auto [p0, p1, p2] = triangle_corners(scene, t);
+            const vec3 product = edge_product(p0, p1, p2);
             for (uint i = 0; i < counts[t]; ++i) {
                 const vec2 place = sample_triangle(sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
                 const vec3 position = (1 - place.x - place.y) * p0 + place.x * p1 + place.y * p2;

@@ -137,7 +137,7 @@ class Cutter {
         for (vec2 p : outline) {
             low = min(low, p), high = max(high, p);
             for (float h : {whole_.low.z, whole_.high.z}) {
-                const vec3 at = whole_.anchor + whole_.u_axis * p.x + whole_.v_axis * p.y + whole_.normal * h;
+                const vec3 at = whole_.to_scene(vec3(p, h));
                 piece.box_low = min(piece.box_low, at), piece.box_high = max(piece.box_high, at);
             }
         }

@@ -35,8 +35,7 @@ std::vector<Record> bring_into_frame(const SurfaceGrid& grid, const std::vector<
     for (size_t i = 0; i < chosen.size(); ++i) {
         if (i + ahead < chosen.size()) prefetch(photons[chosen[i + ahead]]);
         const Photon& p = photons[chosen[i]];
-        const vec3 offset = p.position - grid.origin;
-        const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+        const vec3 local = position_in_grid(grid, p.position);
         bounds.low = min(bounds.low, local), bounds.high = max(bounds.high, local);
         records.push_back({local, p.origin & 0xffffu, pack_rgb9e5(p.flux * map.flux_scale),
                            map.has_directions() ? pack_direction(p.from, dither_of(chosen[i])) : uint16_t(0)});

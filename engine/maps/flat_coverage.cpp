@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/triangle.h"
+
 namespace lw {
 namespace {
 
@@ -80,7 +82,7 @@ class Ground {
     std::optional<std::vector<Polygon>> look(vec2 low, vec2 high, float height) {
         const float reach = (1 + burying_reach) * radius_;
         const vec3 middle(0.5f * (low + high), height);
-        const vec3 centre = grid_.origin + middle.x * grid_.u_axis + middle.y * grid_.v_axis + height * grid_.normal;
+        const vec3 centre = position_of(grid_, middle);
         if (!caster_.triangles_around(centre, length(0.5f * (high - low) + reach), max_triangles, found_))
             return std::nullopt;
         std::vector<Polygon> flats;
@@ -115,11 +117,8 @@ class Ground {
     }
 
     std::array<vec3, 3> corners_of(uint triangle) const {
-        std::array<vec3, 3> corners;
-        for (int c = 0; c < 3; ++c) {
-            const vec3 offset = scene_.positions[scene_.triangles[triangle][c]] - grid_.origin;
-            corners[size_t(c)] = {dot(offset, grid_.u_axis), dot(offset, grid_.v_axis), dot(offset, grid_.normal)};
-        }
+        std::array<vec3, 3> corners = triangle_corners(scene_, triangle);
+        for (vec3& corner : corners) corner = position_in_grid(grid_, corner);
         return corners;
     }
 
@@ -130,7 +129,7 @@ class Ground {
         if (most.x < low.x || most.y < low.y || least.x > high.x || least.y > high.y || least.z > height + radius_ ||
             most.z < height - radius_)
             return true;
-        const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
+        const vec3 product = edge_product(p[0], p[1], p[2]);
         const float size = length(product);
         if (!(size > 0)) return true;
         const float thickness = flatness * radius_;
@@ -196,8 +195,8 @@ CoverageLevels integrate_kernels(const std::vector<vec2>& polygon, const Coverag
             float outside = whole, inside = 0;
             if (first < last) {
                 outside -= angle(last) - angle(first);
-                const auto integral = [&](float t) { return p * t * (0.5f - (p * p + t * t / 3) / (4 * r2)); };
-                inside = 2 / (lw_pi * r2) * (integral(last) - integral(first));
+                inside = kernel_peak(r2) *
+                         (kernel_shape_over_triangle(p, last, r2) - kernel_shape_over_triangle(p, first, r2));
             }
             sums[level] += inside + outside / (2 * lw_pi);
         }

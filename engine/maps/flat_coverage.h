@@ -11,7 +11,7 @@ namespace lw {
 
 using CoverageLevels = std::array<float, coverage_levels>;
 
-/// Integral of the kernels of all levels, 2 / (pi r2) (1 - d2 / r2), around the origin over a convex polygon whose
+/// Integral of the kernels of all levels (shaders/kernel.h) around the origin over a convex polygon whose
 /// corners follow each other to the left; radii[i] is that of level i, ascending, m. 1 each when the polygon covers the
 /// largest.
 CoverageLevels integrate_kernels(const std::vector<vec2>& polygon, const CoverageLevels& radii);

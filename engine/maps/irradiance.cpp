@@ -6,10 +6,11 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "maps/coverage.h"
-#include "maps/estimate.h"
+#include "maps/map_reader.h"
 #include "maps/packing.h"
 #include "maps/photon_sums.h"
 #include "maps/smoothing.h"
+#include "shaders/color.h"
 #include "trace/emitter.h"
 #include "trace/sampling.h"
 
@@ -19,17 +20,15 @@ namespace {
 constexpr uint rays_to_mesh = 16;
 constexpr float max_record = 4096;
 
-float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
-float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
-
 /// Light at the nodes of one map after another.
-class NodeLight : public PhotonEstimator {
+class NodeLight {
   public:
     NodeLight(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const std::vector<NodePoint>& nodes)
-        : PhotonEstimator(scene, map, none_, {}),
-          scene_(scene),
+        : scene_(scene),
           caster_(caster),
           map_(map),
+          surfaces_(scene),
+          maps_(map),
           nodes_(nodes),
           emitters_(scene),
           lamps_(uint(scene.lights.size())),
@@ -85,12 +84,13 @@ class NodeLight : public PhotonEstimator {
     float sum_photons(const SurfaceGrid& grid, const PhotonSums& photons, uint node, std::vector<vec4>& sums) const {
         const SurfaceLattice& lattice = grid.lattice;
         const uint i = node - lattice.first_node;
-        const vec3 at = surface_at(nodes_[node].triangle, nodes_[node].barycentrics).position;
+        const vec3 at = surfaces_.surface_at(nodes_[node].triangle, nodes_[node].barycentrics).position;
         const vec2 uv = lattice.low + vec2(float(i % lattice.columns), float(i / lattice.columns)) * lattice.step;
         const vec3 local(uv, position_in_grid(grid, at).z);
-        const float radius = bandwidth_from_counts(grid, local);
+        const float radius = maps_.bandwidth_from_counts(grid, local);
         photons.add(local, radius, sums);
-        return 2.0f / (lw_pi * radius * radius) * inverse_flux_scale /
+        // kernel_peak(), but for the order of the product: the last bit of the records hangs on it.
+        return kernel_height / (lw_pi * radius * radius) * (1 / map_.flux_scale) /
                std::max(unpack_coverage(map_.coverage[node], radius / grid.radius), min_coverage);
     }
 
@@ -103,7 +103,7 @@ class NodeLight : public PhotonEstimator {
         for (uint i = 0; i < count; ++i) {
             const uint node = lattice.first_node + i;
             if (!nodes_[node].exists()) continue;
-            const Surface s = surface_at(nodes_[node].triangle, nodes_[node].barycentrics);
+            const Surface s = surfaces_.surface_at(nodes_[node].triangle, nodes_[node].barycentrics);
             const vec3 n = s.geometric_normal * (dot(s.geometric_normal, map_.grids[m].normal) < 0 ? -1.0f : 1.0f);
             Rng rng(1, 2, node);
             buried[i] = is_buried(caster_, s.position, n, clearance_of(map_.settings.radius), rng);
@@ -154,10 +154,11 @@ class NodeLight : public PhotonEstimator {
         return open > 0 ? sum / open : vec3(0);
     }
 
-    static inline const std::vector<vec3> none_;
     const Scene& scene_;
     const RayCaster& caster_;
     const PhotonMap& map_;
+    SurfaceReader surfaces_;
+    MapReader maps_;
     const std::vector<NodePoint>& nodes_;
     Emitters emitters_;
     uint lamps_;

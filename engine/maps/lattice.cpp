@@ -35,8 +35,8 @@ uint nodes_along(float size, float spacing) {
 
 SurfaceLattice fit_lattice(const PatchShape& shape, const SurfaceGrid& grid, float spacing) {
     SurfaceLattice lattice{};
-    const vec3 offset = shape.anchor - grid.origin, extent = shape.high - shape.low;
-    lattice.low = vec2(dot(offset, grid.u_axis) + shape.low.x, dot(offset, grid.v_axis) + shape.low.y);
+    const vec3 extent = shape.high - shape.low;
+    lattice.low = vec2(position_in_grid(grid, shape.anchor)) + vec2(shape.low);
     lattice.columns = nodes_along(extent.x, spacing);
     lattice.rows = nodes_along(extent.y, spacing);
     lattice.step = max(vec2(extent.x, extent.y) / vec2(float(lattice.columns - 1), float(lattice.rows - 1)),
@@ -128,12 +128,8 @@ std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchS
         const std::vector<vec2> outline = outline_in(shapes[m], lattice);
         for (uint i = sides.starts[m]; i < sides.starts[m + 1]; ++i) {
             const uint triangle = sides.sides[i] / 2;
-            std::array<vec3, 3> corners;
-            for (int c = 0; c < 3; ++c) {
-                const vec3 offset = scene.positions[scene.triangles[triangle][c]] - grid.origin;
-                corners[size_t(c)] = vec3(vec2(dot(offset, grid.u_axis), dot(offset, grid.v_axis)) - lattice.low,
-                                          dot(offset, grid.normal));
-            }
+            std::array<vec3, 3> corners = triangle_corners(scene, triangle);
+            for (vec3& corner : corners) corner = position_in_grid(grid, corner) - vec3(lattice.low, 0);
             place_nodes(lattice, corners, triangle, outline, nodes);
         }
     });

@@ -50,7 +50,7 @@ class NeighbourTest {
     Box bounds(uint patch, vec3 low, vec3 high) const {
         const PatchShape& s = shapes_[patch];
         const vec3 middle = 0.5f * (low + high), half = 0.5f * (high - low);
-        const vec3 centre = s.anchor + s.u_axis * middle.x + s.v_axis * middle.y + s.normal * middle.z;
+        const vec3 centre = s.to_scene(middle);
         const vec3 extent = abs(s.u_axis) * half.x + abs(s.v_axis) * half.y + abs(s.normal) * half.z;
         return {centre - extent, centre + extent};
     }

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "scene/triangle.h"
 
 namespace lw {
 namespace {
@@ -51,13 +52,9 @@ struct HeightSpan {
 Patches split_sheets(const Scene& scene, const Patches& groups, float gap) {
     std::vector<glm::dvec3> normals(groups.count, glm::dvec3(0));
     std::vector<HeightSpan> spans(groups.of_side.size());
-    const auto corners = [&](size_t side) {
-        const uvec3 c = scene.triangles[side / 2];
-        return std::array<vec3, 3>{scene.positions[c.x], scene.positions[c.y], scene.positions[c.z]};
-    };
+    const auto corners = [&](size_t side) { return triangle_corners(scene, side / 2); };
     for (size_t side = 0; side < spans.size(); ++side) {
-        const auto [a, b, c] = corners(side);
-        const glm::dvec3 product(cross(b - a, c - a));
+        const glm::dvec3 product(triangle_product(scene, side / 2));
         normals[groups.of_side[side]] += side % 2 ? -product : product;
     }
     for (glm::dvec3& n : normals) n = glm::length(n) > 0 ? glm::normalize(n) : glm::dvec3(0, 1, 0);
@@ -90,10 +87,9 @@ Patches group_triangles(const Scene& scene, float patch_size) {
     patches.of_side.resize(2 * scene.triangles.size());
     std::unordered_map<PatchKey, uint, PatchKeyHash> shared;
     for (size_t t = 0; t < scene.triangles.size(); ++t) {
-        const uvec3 corner = scene.triangles[t];
-        const vec3 a = scene.positions[corner.x], b = scene.positions[corner.y], c = scene.positions[corner.z];
+        const auto [a, b, c] = triangle_corners(scene, t);
         const vec3 low = min(a, min(b, c)), high = max(a, max(b, c)), size = high - low;
-        const vec3 product = cross(b - a, c - a);
+        const vec3 product = edge_product(a, b, c);
         const float twice_area = length(product);
         const vec3 normal = twice_area > 0 ? product / twice_area : vec3(0, 1, 0);
         for (uint side = 0; side < 2; ++side) {
@@ -121,9 +117,8 @@ namespace {
 template <class Visit>
 void for_each_side(const Scene& scene, const Patches& patches, std::vector<PatchShape>& shapes, const Visit& visit) {
     for (size_t t = 0; t < scene.triangles.size(); ++t) {
-        const uvec3 corner = scene.triangles[t];
-        const std::array<vec3, 3> p{scene.positions[corner.x], scene.positions[corner.y], scene.positions[corner.z]};
-        const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
+        const std::array<vec3, 3> p = triangle_corners(scene, t);
+        const vec3 product = edge_product(p[0], p[1], p[2]);
         for (uint side = 0; side < 2; ++side)
             visit(patches.of_side[2 * t + side], uint(t), p, side ? -product : product, shapes);
     }

@@ -41,7 +41,9 @@ struct PatchShape {
     float cos_spread = 1;                                    // least cosine of the normal and those of its triangles
     std::vector<vec2> outline{};  // of a piece of a cut patch, in u and v: convex, counter-clockwise
 
+    /// A point of the scene in that frame, and back.
     vec3 to_local(vec3 p) const { return {dot(p - anchor, u_axis), dot(p - anchor, v_axis), dot(p - anchor, normal)}; }
+    vec3 to_scene(vec3 p) const { return anchor + u_axis * p.x + v_axis * p.y + normal * p.z; }
 };
 
 /// The shapes of all patches.

@@ -63,14 +63,14 @@ void PhotonSums::add_row(size_t first, size_t last, vec3 local, float inverse_ra
     }
 }
 
-/// 1 - d2 / radius2 of `count` photons, 0 of those outside or not on the same surface.
+/// The weights of `count` photons, 0 of those outside the kernel or not on the same surface.
 LW_WIDE_VECTORS void PhotonSums::weigh(size_t first, size_t count, vec3 local, float inverse_radius2,
                                        float* weights) const {
     const float *u = &u_[first], *v = &v_[first], *h = &h_[first], max_radius = max_radius_;
     for (size_t i = 0; i < count; ++i) {
         const float du = u[i] - local.x, dv = v[i] - local.y, dh = h[i] - local.z;
         const float d2 = du * du + dv * dv + dh * dh;
-        weights[i] = positive(1 - d2 * inverse_radius2) * same_surface_weight(dh, d2, max_radius);
+        weights[i] = kernel_weight(d2 * inverse_radius2) * same_surface_weight(dh, d2, max_radius);
     }
 }
 

@@ -15,7 +15,7 @@ class PhotonSums {
 
     PhotonSums(const PhotonMap& map, const SurfaceGrid& grid);
 
-    /// Adds the flux of the photons within `radius` m of a point (u, v, h of the grid), weighted by 1 - d2 / radius2,
+    /// Adds the flux of the photons within `radius` m of a point (u, v, h of the grid), weighted by kernel_shape(),
     /// to the sums of each lamp; record flux, that is lm times the map's flux scale. The fourth component is unused.
     void add(vec3 local, float radius, std::span<vec4> sums) const;
 

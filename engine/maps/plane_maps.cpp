@@ -44,7 +44,7 @@ PlaneMaps::PlaneMaps(const Scene& scene, const PhotonMap& map)
 
 vec3 point_on_lattice(const SurfaceGrid& grid, vec2 cells, float height) {
     const vec2 uv = grid.lattice.low + cells * grid.lattice.step;
-    return grid.origin + uv.x * grid.u_axis + uv.y * grid.v_axis + height * grid.normal;
+    return position_of(grid, vec3(uv, height));
 }
 
 }  // namespace lw

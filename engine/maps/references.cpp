@@ -105,9 +105,7 @@ class MapFinder {
 
   private:
     vec3 normal_of(const Photon& photon) const {
-        const uvec3 c = in_.scene.triangles[photon.triangle];
-        const vec3 a = in_.scene.positions[c.x];
-        const vec3 product = cross(in_.scene.positions[c.y] - a, in_.scene.positions[c.z] - a);
+        const vec3 product = triangle_product(in_.scene, photon.triangle);
         const float size = length(product) * (photon.side() ? -1.0f : 1.0f);
         return size != 0 ? product / size : vec3(0);  // zero never passes the angle test
     }
@@ -135,13 +133,12 @@ class MapFinder {
     /// The point of a patch nearest to `position`, which is at `local` in its frame.
     vec3 nearest_point(vec3 position, vec3 local, const PatchShape& shape) const {
         if (shape.triangles == 1 && shape.outline.empty()) {
-            const uvec3 c = in_.scene.triangles[shape.triangle];
-            return closest_point_on_triangle(position, in_.scene.positions[c.x], in_.scene.positions[c.y],
-                                             in_.scene.positions[c.z]);
+            const auto [a, b, c] = triangle_corners(in_.scene, shape.triangle);
+            return closest_point_on_triangle(position, a, b, c);
         }
         vec3 nearest = clamp(local, shape.low, shape.high);
         if (!shape.outline.empty()) nearest = vec3(nearest_in_outline(shape.outline, vec2(local)), nearest.z);
-        return shape.anchor + shape.u_axis * nearest.x + shape.v_axis * nearest.y + shape.normal * nearest.z;
+        return shape.to_scene(nearest);
     }
 
     /// Whether no wall stands between a photon and a patch of the same plane: a ray a little above it, and a little

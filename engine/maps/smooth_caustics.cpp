@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "maps/estimate.h"
+#include "maps/map_reader.h"
 #include "maps/packing.h"
+#include "scene/surface.h"
+#include "shaders/color.h"
 
 namespace lw {
 namespace {
@@ -13,22 +15,22 @@ constexpr float max_record = 32768;  // RGB9E5 goes to 65408
 constexpr float min_steps = 1.5f;    // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
 
 /// The text of shaders/caustics.glsl at lattice nodes, lamp by lamp.
-class CausticNodes : public PhotonEstimator {
+class CausticNodes {
   public:
     CausticNodes(const Scene& scene, const PhotonMap& map, const std::vector<NodePoint>& nodes)
-        : PhotonEstimator(scene, map, none_, {gather_mode_smooth}), nodes_(nodes), lamps_(uint(scene.lights.size())) {}
+        : map_(map), surfaces_(scene), maps_(map), nodes_(nodes), lamps_(uint(scene.lights.size())) {}
 
     /// Adds the caustics of a node of map m to the records; false, and nothing added, where they are too sharp for it.
     bool add(uint m, uint node, std::vector<uint>& records) const {
         if (!nodes_[node].exists()) return false;
-        const Surface s = surface_at(nodes_[node].triangle, nodes_[node].barycentrics);
+        const Surface s = surfaces_.surface_at(nodes_[node].triangle, nodes_[node].barycentrics);
         const bool front = dot(s.geometric_normal, map_.grids[m].normal) >= 0;
-        const uint own = map_at(caustic_map_of(nodes_[node].triangle, front), s.position);
+        const uint own = maps_.map_at(maps_.caustic_map_of(nodes_[node].triangle, front), s.position);
         if (own == no_map) return true;
         const SurfaceGrid& grid = map_.grids[own];
         const SurfaceLattice& lattice = map_.grids[m].lattice;
         const vec3 local = position_in_grid(grid, s.position);
-        const float radius = caustic_radius(grid, local);
+        const float radius = maps_.caustic_radius(grid, local);
         const std::vector<vec3> light = light_at_node(m, node, grid, local, radius);
         if (radius < min_steps * std::max(lattice.step.x, lattice.step.y) && has_any(light)) return false;
         for (uint lamp = 0; lamp < lamps_; ++lamp)
@@ -51,15 +53,17 @@ class CausticNodes : public PhotonEstimator {
         std::vector<vec3> light(lamps_, vec3(0));
         const float r2 = radius * radius, wide = std::min(4 * radius / grid.radius, 1.0f);
         const float covered = unpack_coverage(map_.coverage[node], radius / map_.grids[m].radius);
-        const float share = 2 / (lw_pi * r2) * inverse_flux_scale * map_.irradiance_scale /
+        const float share = kernel_peak(r2) * (1 / map_.flux_scale) * map_.irradiance_scale /
                             (1 + wide * (std::max(covered, min_coverage) - 1));
-        visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
-            light[light_of(place)] += unpack_rgb9e5(photon_flux(i)) * (share * (1 - d2 / r2));
+        maps_.visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
+            light[light_of(place)] += unpack_rgb9e5(map_.fluxes[i]) * (share * kernel_shape(d2 / r2));
         });
         return light;
     }
 
-    static inline const std::vector<vec3> none_;
+    const PhotonMap& map_;
+    SurfaceReader surfaces_;
+    MapReader maps_;
     const std::vector<NodePoint>& nodes_;
     uint lamps_;
 };

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "maps/cuts.h"
+#include "scene/triangle.h"
 #include "trace/box_search.h"
 
 namespace lw {
@@ -60,7 +61,7 @@ bool crossing(const PatchShape& shape, const std::array<vec3, 3>& corners, float
         last = std::min(last, std::max(low / d[axis], high / d[axis]));
     }
     if (!(first < last)) return false;
-    const vec3 n = cross(local[1] - local[0], local[2] - local[0]);  // of the wall: it may lean
+    const vec3 n = edge_product(local[0], local[1], local[2]);  // of the wall: it may lean
     const vec2 foot = vec2(n) * (n.z * height_of_cuts(radius) / std::max(n.x * n.x + n.y * n.y, 1e-30f));
     segment.a = ends[0] + d * first + foot, segment.b = ends[0] + d * last + foot;
     return true;
@@ -79,9 +80,8 @@ std::vector<Segment> find_segments(const Scene& scene, float radius, const std::
     std::vector<std::vector<Segment>> parts((scene.triangles.size() + chunk - 1) / chunk);
     parallel_for(parts.size(), [&](size_t k) {
         for (size_t t = k * chunk; t < std::min(scene.triangles.size(), (k + 1) * chunk); ++t) {
-            std::array<vec3, 3> p;
-            for (int c = 0; c < 3; ++c) p[size_t(c)] = scene.positions[scene.triangles[t][c]];
-            const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
+            const std::array<vec3, 3> p = triangle_corners(scene, t);
+            const vec3 product = edge_product(p[0], p[1], p[2]);
             const float size = length(product);
             search.overlapping({min(p[0], min(p[1], p[2])), max(p[0], max(p[1], p[2]))}, [&](uint patch) {
                 Segment segment{patch, uint(t), {}, {}};

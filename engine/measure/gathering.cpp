@@ -39,40 +39,40 @@ void Gatherer::add_emission(const Surface& s, vec3 to_view, float weight, Gather
 /// Light that lamps send to a surface around and it sends on.
 void Gatherer::add_lamps(const Seen& at, LampChoice choice, GatherRay& to) const {
     const Surface& s = at.surface;
-    for (uint lamp = 0; lamp < light_count; ++lamp) {
-        if (lights[lamp].type == light_mesh && choice == LampChoice::without_meshes) continue;
+    for (uint lamp = 0; lamp < scene_.lights.size(); ++lamp) {
+        if (scene_.lights[lamp].type == light_mesh && choice == LampChoice::without_meshes) continue;
         const float u = to.rng.next(), v = to.rng.next();
         const std::optional<Incident> in = emitters_.arrive(lamp, s.position, u, v);
         if (!in || dot(in->to_light, at.n_geometric) <= 0 || dot(in->to_light, at.n_shading) <= 0) continue;
-        const vec3 f = to.throughput * eval_brdf(s, at.n_shading, at.to_eye, in->to_light, false) *
+        const vec3 f = to.throughput * surfaces_.eval_brdf(s, at.n_shading, at.to_view, in->to_light, false) *
                        dot(in->to_light, at.n_shading);
         if (f.x + f.y + f.z <= 0) continue;
         const vec3 light =
             f * in->radiance * caster_.transmittance(caster_.offset(s.position, at.n_geometric), in->position);
         float weight = in->pdf > 0 ? 1 / in->pdf : 1.0f;
         if (in->pdf > 0 && choice == LampChoice::with_path)
-            weight *= share_of(in->pdf, bsdf_pdf(*this, s, at.to_eye, in->to_light));
+            weight *= share_of(in->pdf, bsdf_pdf(surfaces_, s, at.to_view, in->to_light));
         to.lamps[lamp] += light * weight;
     }
 }
 
-/// Photons of a grid under an Epanechnikov kernel of which the part `covered` lies on surface.
+/// Photons of a grid under a kernel of which the part `covered` lies on surface.
 void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
                            GatherRay& to) const {
-    const float r2 = radius * radius, peak = 2 / (lw_pi * r2) * inverse_flux_scale / covered;
+    const float r2 = radius * radius, peak = kernel_peak(r2) * (1 / map_.flux_scale) / covered;
     Surface s = at.surface;
     s.roughness = std::max(s.roughness, min_reflected_roughness);
-    const vec3 diffuse = eval_brdf(s, at.n_shading, at.to_eye, at.n_shading, true);
-    visit_photons(grid, position_in_grid(grid, s.position), radius, [&](uint i, PhotonPlace place, float d2) {
+    const vec3 diffuse = surfaces_.eval_brdf(s, at.n_shading, at.to_view, at.n_shading, true);
+    maps_.visit_photons(grid, position_in_grid(grid, s.position), radius, [&](uint i, PhotonPlace place, float d2) {
         const uint lamp = light_of(place);
-        if (!with_meshes && lights[lamp].type == light_mesh) return;
+        if (!with_meshes && scene_.lights[lamp].type == light_mesh) return;
         vec3 f = diffuse;
-        if (has_directions) {
-            const vec3 from = unpack_direction(photon_direction(i));
+        if (map_.has_directions()) {
+            const vec3 from = unpack_direction(map_.directions[i]);
             const float tilt = clamp(dot(at.n_shading, from) / std::max(dot(at.n_geometric, from), 0.05f), 0.0f, 2.0f);
-            f = eval_brdf(s, at.n_shading, at.to_eye, from, false) * tilt;
+            f = surfaces_.eval_brdf(s, at.n_shading, at.to_view, from, false) * tilt;
         }
-        const vec3 light = to.throughput * f * unpack_rgb9e5(photon_flux(i)) * (peak * (1 - d2 / r2));
+        const vec3 light = to.throughput * f * unpack_rgb9e5(map_.fluxes[i]) * (peak * kernel_shape(d2 / r2));
         to.lamps[lamp] += light;
         to.shares.add(i, file_lux(lamp, light));
     });
@@ -83,17 +83,19 @@ void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered,
 void Gatherer::add_reflected(const Seen& at, GatherRay& to) const {
     if (at.at.map == no_map) return;
     const float radius = 0.5f * at.at.grid.radius;
-    add_photons(at.at.grid, radius, has_coverage ? coverage_at(at.at, radius) : 1.0f, at, true, to);
+    add_photons(at.at.grid, radius, maps_.covered_part(at.at, radius), at, true, to);
 }
 
 /// Light of lamps by mirrors and lenses alone, far sharper: from its own grids with the bandwidth of a picture. Meshes
 /// are left out where the path goes on and finds them itself.
 void Gatherer::add_caustics(const Seen& at, bool with_meshes, GatherRay& to) const {
-    const uint own = has_caustics ? map_at(caustic_map_of(at.triangle, at.front), at.surface.position) : no_map;
+    const uint own = map_.caustic_grids > 0
+                         ? maps_.map_at(maps_.caustic_map_of(at.triangle, at.front), at.surface.position)
+                         : no_map;
     if (own == no_map) return;
-    const SurfaceGrid& grid = grid_at(own);
-    const float radius = caustic_radius(grid, position_in_grid(grid, at.surface.position));
-    add_photons(grid, radius, caustic_coverage(at.at, grid, radius), at, with_meshes, to);
+    const SurfaceGrid& grid = maps_.grid_at(own);
+    const float radius = maps_.caustic_radius(grid, position_in_grid(grid, at.surface.position));
+    add_photons(grid, radius, maps_.caustic_coverage(at.at, grid, radius), at, with_meshes, to);
 }
 
 /// Whether the photons around a point speak for it: they lie on enough surface (the mean of the inverse of a small
@@ -103,7 +105,7 @@ bool Gatherer::is_resolved(const Seen& seen) const {
     constexpr float reach = 1.2f;  // over cos 30 degrees, so that a wall between two feelers is met
     if (seen.at.map == no_map) return true;
     const float radius = 0.5f * seen.at.grid.radius;
-    if (has_coverage && coverage_at(seen.at, radius) < min_used_coverage) return false;
+    if (maps_.covered_part(seen.at, radius) < min_used_coverage) return false;
     const mat3 frame = frame_around(seen.n_geometric);
     const vec3 start = caster_.offset(seen.surface.position, seen.n_geometric);
     for (int i = 0; i < feelers; ++i)
@@ -115,7 +117,7 @@ bool Gatherer::is_resolved(const Seen& seen) const {
 auto Gatherer::seen_from(vec3 to_view, const Hit& hit, const Surface& s) const -> Seen {
     const bool front = dot(s.geometric_normal, to_view) >= 0;
     const vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal, n = front ? s.normal : -s.normal;
-    const MapPlace at = place_on(map_of(hit.triangle, front), s.position);
+    const MapReader::MapPlace at = maps_.place_on(maps_.map_of(hit.triangle, front), s.position);
     return {hit.triangle, s, at, to_view, n_geometric, dot(n, to_view) > 1e-4f ? n : n_geometric, front};
 }
 
@@ -130,19 +132,19 @@ void Gatherer::gather(vec3 origin, vec3 direction, GatherRay& to) const {
     for (int depth = 0; depth < max_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction);
         if (!hit) return;
-        const Surface s = surface_at(hit->triangle, hit->barycentrics);
+        const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
         if (s.flags & material_unlit) return;
         const vec3 to_view = -direction;
         travelled += hit->distance;
-        to.throughput *= passed_by_medium(absorption_before(*this, s, direction, medium), hit->distance);
+        to.throughput *= surfaces_.passed_by_medium(absorption_before(surfaces_, s, direction, medium), hit->distance);
         if (emission && s.light >= 0) {
             const float other = density > 0 ? emitters_.arrive_pdf(s, travelled, direction) : 0.0f;
             add_emission(s, to_view, density > 0 ? share_of(density, other) : 1.0f, to);
         }
         Seen at = seen_from(to_view, *hit, s);
-        const bool specular = is_purely_specular(s);
+        const bool specular = surfaces_.is_purely_specular(s);
         const bool sharp = !specular && s.metallic > 0.5f && s.roughness < min_gathered_roughness;
-        const bool close = hit->distance < 0.5f * max_radius || !is_resolved(at);
+        const bool close = hit->distance < 0.5f * map_.settings.radius || !is_resolved(at);
         const bool walk_on = specular || sharp || close;
         if (!walk_on) {
             add_reflected(at, to);
@@ -153,7 +155,7 @@ void Gatherer::gather(vec3 origin, vec3 direction, GatherRay& to) const {
         if (!specular) add_caustics(at, !walk_on, to);
         if (!walk_on && s.transmission <= 0) return;
 
-        const std::optional<Scatter> next = sample_bsdf(*this, s, to_view, Carries::radiance, to.rng);
+        const std::optional<Scatter> next = sample_bsdf(surfaces_, s, to_view, Carries::radiance, to.rng);
         if (!next) return;
         const bool passes = dot(next->direction, at.n_geometric) < 0;
         if (!walk_on && !passes) return;
@@ -166,7 +168,7 @@ void Gatherer::gather(vec3 origin, vec3 direction, GatherRay& to) const {
         }
         if (!next->straight) emission = true, density = next->specular || sharp ? 0.0f : next->pdf, travelled = 0;
         direction = next->direction;
-        medium = absorption_after(*this, s, direction, medium);
+        medium = absorption_after(surfaces_, s, direction, medium);
         origin = caster_.offset(s.position, passes ? -at.n_geometric : at.n_geometric);
     }
 }

@@ -3,8 +3,10 @@
 #pragma once
 #include <vector>
 
-#include "maps/estimate.h"
+#include "maps/map_reader.h"
 #include "measure/reading.h"
+#include "scene/surface.h"
+#include "shaders/color.h"
 #include "trace/emitter.h"
 #include "trace/ray_caster.h"
 
@@ -32,23 +34,35 @@ struct GatherRay {
 enum class LampChoice { all, without_meshes, with_path };
 
 /// Gathers in one scene and map. Thread-safe. All references must outlive it.
-class Gatherer : public PhotonEstimator {
+class Gatherer {
   public:
     Gatherer(const Scene& scene, const RayCaster& caster, const PhotonMap& map)
-        : PhotonEstimator(scene, map, no_weights_, {gather_mode_smooth, 1, 0}),
-          scene_(scene),
-          caster_(caster),
-          emitters_(scene) {}
+        : scene_(scene), caster_(caster), map_(map), surfaces_(scene), maps_(map), emitters_(scene) {}
+
+    const SurfaceReader& surfaces() const { return surfaces_; }
+    const MapReader& maps() const { return maps_; }
+    const Emitters& emitters() const { return emitters_; }
 
     /// Follows a ray and adds what it brings.
     void gather(vec3 origin, vec3 direction, GatherRay& to) const;
 
     /// Light of one lamp per unit intensity and RGB as lux of its power in the file.
     ChannelLux file_lux(uint lamp, vec3 per_intensity) const {
-        return per_intensity * scene_.lights[lamp].intensity * vec3(0.2126f, 0.7152f, 0.0722f);
+        return per_intensity * scene_.lights[lamp].intensity * luminance_weights;
     }
 
-  protected:
+  private:
+    /// A surface as a ray meets it.
+    struct Seen {
+        uint triangle;
+        Surface surface;
+        MapReader::MapPlace at;
+        vec3 to_view;
+        vec3 n_geometric;  // both turned to the ray's origin
+        vec3 n_shading;
+        bool front;
+    };
+
     Seen seen_from(vec3 to_view, const Hit& hit, const Surface& s) const;
     bool is_resolved(const Seen& seen) const;
     void add_emission(const Surface& s, vec3 to_view, float weight, GatherRay& to) const;
@@ -58,9 +72,11 @@ class Gatherer : public PhotonEstimator {
     void add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
                      GatherRay& to) const;
 
-    static inline const std::vector<vec3> no_weights_;
     const Scene& scene_;
     const RayCaster& caster_;
+    const PhotonMap& map_;
+    SurfaceReader surfaces_;
+    MapReader maps_;
     Emitters emitters_;
 };
 

@@ -6,10 +6,10 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "image/tonemap.h"
 #include "maps/coverage.h"
 #include "measure/gathering.h"
 #include "measure/placing.h"
+#include "shaders/color.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -23,10 +23,14 @@ constexpr int looks_around = 16;  // of 4 rays: a corner leaves a quarter of the
 constexpr float narrower = 0.5f;  // the second kernel of a caustic, whose difference tells of the blur
 
 /// Light meter over one scene and map. Thread-safe.
-class LightMeter : public Gatherer {
+class LightMeter {
   public:
     LightMeter(const Scene& scene, const RayCaster& caster, const PhotonMap& map)
-        : Gatherer(scene, caster, map), path_correlation_(correlation_of_paths(scene, map)) {}
+        : scene_(scene),
+          caster_(caster),
+          map_(map),
+          gatherer_(scene, caster, map),
+          path_correlation_(correlation_of_paths(scene, map)) {}
 
     Reading read(const Sensor& sensor, size_t index, const MeterSettings& settings, PhotonShares& shares) const;
     size_t references() const { return map_.places.size(); }
@@ -39,6 +43,10 @@ class LightMeter : public Gatherer {
     void add_caustic_on(const Sensor& sensor, PhotonShares& shares, Reading& reading) const;
     void finish(const PhotonShares& shares, Reading& reading) const;
 
+    const Scene& scene_;
+    const RayCaster& caster_;
+    const PhotonMap& map_;
+    Gatherer gatherer_;
     std::vector<float> path_correlation_;
 };
 
@@ -61,7 +69,8 @@ vec3 LightMeter::direct(uint lamp, const Sensor& sensor, uint samples, uint32_t 
     if (scene_.lights[lamp].type != light_mesh) samples = 1;
     vec3 sum(0);
     for (uint i = 0; i < samples; ++i) {
-        const auto in = emitters_.arrive(lamp, sensor.position, sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
+        const auto in =
+            gatherer_.emitters().arrive(lamp, sensor.position, sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
         if (!in) continue;
         const float response = response_to(sensor, in->to_light);
         if (response <= 0) continue;
@@ -74,7 +83,7 @@ vec3 LightMeter::direct(uint lamp, const Sensor& sensor, uint samples, uint32_t 
 /// One of the independent repetitions: quasi-random rays (Owen 1997) of their own scrambling.
 void LightMeter::add_repetition(const Sensor& sensor, uint64_t stream, uint r, const MeterSettings& settings,
                                 PhotonShares& shares, Reading& reading) const {
-    const size_t count = light_count;
+    const size_t count = scene_.lights.size();
     const uint rays = reading.rays / repetitions;
     Rng rng(settings.seed, 1, stream);
     const auto scramble = uint32_t(mix64(settings.seed * 0x10001 + stream));
@@ -84,10 +93,10 @@ void LightMeter::add_repetition(const Sensor& sensor, uint64_t stream, uint r, c
                                                     sobol_owen(i, 2, scramble));
         std::fill(ray.begin(), ray.end(), vec3(0));
         GatherRay gathering{vec3(to.lux_per_radiance), ray, shares, rng};
-        gather(sensor.position, to.direction, gathering);
+        gatherer_.gather(sensor.position, to.direction, gathering);
         for (uint lamp = 0; lamp < count; ++lamp) {
             sum[lamp] += ray[lamp];
-            const ChannelLux lux = file_lux(lamp, ray[lamp]);
+            const ChannelLux lux = gatherer_.file_lux(lamp, ray[lamp]);
             squares[lamp] += lux * lux;
         }
     }
@@ -95,9 +104,9 @@ void LightMeter::add_repetition(const Sensor& sensor, uint64_t stream, uint r, c
         const vec3 reflected = sum[lamp] / float(rays);
         const auto lamp_scramble = uint32_t(mix64(uint64_t(scramble) << 16 | lamp));
         const vec3 all = reflected + direct(lamp, sensor, std::max(rays / 2, 1u), lamp_scramble);
-        reading.lamps[lamp] += file_lux(lamp, all) / float(repetitions);
-        reading.repeated[r * count + lamp] = file_lux(lamp, all);
-        const ChannelLux mean = file_lux(lamp, reflected);
+        reading.lamps[lamp] += gatherer_.file_lux(lamp, all) / float(repetitions);
+        reading.repeated[r * count + lamp] = gatherer_.file_lux(lamp, all);
+        const ChannelLux mean = gatherer_.file_lux(lamp, reflected);
         reading.scatter[lamp] +=
             max(squares[lamp] / float(rays) - mean * mean, vec3(0)) / float(rays * repetitions * repetitions);
     }
@@ -106,40 +115,44 @@ void LightMeter::add_repetition(const Sensor& sensor, uint64_t stream, uint r, c
 /// Light that points, spots and suns send over mirrors and through lenses to the surface a sensor measures: no ray from
 /// the sensor finds them, but their photons lie there.
 void LightMeter::add_caustic_on(const Sensor& sensor, PhotonShares& shares, Reading& reading) const {
-    const std::optional<Hit> hit = has_caustics ? surface_under(*this, caster_, sensor) : std::nullopt;
+    const SurfaceReader& surfaces = gatherer_.surfaces();
+    const MapReader& maps = gatherer_.maps();
+    const std::optional<Hit> hit = map_.caustic_grids > 0 ? surface_under(surfaces, caster_, sensor) : std::nullopt;
     if (!hit) return;
-    const Surface s = surface_at(hit->triangle, hit->barycentrics);
+    const Surface s = surfaces.surface_at(hit->triangle, hit->barycentrics);
     const bool front = dot(s.geometric_normal, sensor.normal) > 0;
-    const uint own = map_at(caustic_map_of(hit->triangle, front), s.position);
+    const uint own = maps.map_at(maps.caustic_map_of(hit->triangle, front), s.position);
     if (own == no_map) return;
-    const MapPlace at = place_on(map_of(hit->triangle, front), s.position);
-    const SurfaceGrid& grid = grid_at(own);
+    const MapReader::MapPlace at = maps.place_on(maps.map_of(hit->triangle, front), s.position);
+    const SurfaceGrid& grid = maps.grid_at(own);
     const vec3 local = position_in_grid(grid, s.position);
-    const float wide = caustic_radius(grid, local);
-    std::vector<vec3> blurred(light_count, vec3(0)), sharp(light_count, vec3(0));
+    const float wide = maps.caustic_radius(grid, local);
+    const size_t lights = scene_.lights.size();
+    std::vector<vec3> blurred(lights, vec3(0)), sharp(lights, vec3(0));
     const auto visit = [&](float radius, std::vector<vec3>& lamps, bool counts) {
         const float r2 = radius * radius,
-                    peak = 2 / (lw_pi * r2) * inverse_flux_scale / caustic_coverage(at, grid, radius);
-        visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
+                    peak = kernel_peak(r2) * (1 / map_.flux_scale) / maps.caustic_coverage(at, grid, radius);
+        maps.visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
             const uint lamp = light_of(place);
-            if (lights[lamp].type == light_mesh) return;
-            const ChannelLux lux = file_lux(lamp, unpack_rgb9e5(photon_flux(i)) * (peak * (1 - d2 / r2)));
+            if (scene_.lights[lamp].type == light_mesh) return;
+            const ChannelLux lux =
+                gatherer_.file_lux(lamp, unpack_rgb9e5(map_.fluxes[i]) * (peak * kernel_shape(d2 / r2)));
             lamps[lamp] += lux;
             if (counts) shares.add(i, lux * float(reading.rays));
         });
     };
     visit(wide, blurred, true);
     visit(narrower * wide, sharp, false);
-    for (uint lamp = 0; lamp < light_count; ++lamp) {
+    for (size_t lamp = 0; lamp < lights; ++lamp) {
         reading.lamps[lamp] += blurred[lamp];
-        for (uint r = 0; r < repetitions; ++r) reading.repeated[r * light_count + lamp] += blurred[lamp];
+        for (uint r = 0; r < repetitions; ++r) reading.repeated[r * lights + lamp] += blurred[lamp];
         reading.blur[lamp] = abs(blurred[lamp] - sharp[lamp]) / (1 - narrower * narrower);
     }
 }
 
 void LightMeter::finish(const PhotonShares& shares, Reading& reading) const {
     for (const uint reference : shares.touched) {
-        const uint lamp = light_of(photon_place(reference));
+        const uint lamp = light_of(map_.places[reference]);
         const ChannelLux share = shares.lux[reference] / float(reading.rays);
         reading.by_photons[lamp] += share;
         reading.photon_variance[lamp] += path_correlation_[lamp] * share * share;
@@ -148,12 +161,13 @@ void LightMeter::finish(const PhotonShares& shares, Reading& reading) const {
 }
 
 Reading LightMeter::read(const Sensor& asked, size_t index, const MeterSettings& settings, PhotonShares& shares) const {
-    const Sensor sensor = lifted(*this, caster_, asked);
-    const std::vector<ChannelLux> dark(light_count, vec3(0));
-    Reading reading{dark, std::vector<ChannelLux>(size_t(light_count) * repetitions, vec3(0)), dark, dark, dark, dark};
+    const SurfaceReader& surfaces = gatherer_.surfaces();
+    const Sensor sensor = lifted(surfaces, caster_, asked);
+    const std::vector<ChannelLux> dark(scene_.lights.size(), vec3(0));
+    Reading reading{dark, std::vector<ChannelLux>(dark.size() * repetitions, vec3(0)), dark, dark, dark, dark};
     reading.rays = std::max(settings.rays / repetitions, 1u) * repetitions;
-    reading.kernel_bias = bias_of_kernels * max_radius / scene_size;
-    reading.near_border = is_near_border(*this, caster_, sensor);
+    reading.kernel_bias = bias_of_kernels * map_.settings.radius / scene_.size();
+    reading.near_border = is_near_border(surfaces, caster_, sensor);
     reading.at_lamp = is_at_lamp(scene_, sensor);
     Rng blocking(settings.seed, 0, index);
     reading.blocked = sensor.response == Response::planar;
@@ -164,7 +178,7 @@ Reading LightMeter::read(const Sensor& asked, size_t index, const MeterSettings&
     add_caustic_on(sensor, shares, reading);
     finish(shares, reading);
     // Back sides all around may also be a room whose faces are turned: then there is light.
-    reading.blocked = reading.blocked || (is_dark(reading) && lw::is_inside(*this, caster_, sensor));
+    reading.blocked = reading.blocked || (is_dark(reading) && is_inside(surfaces, caster_, sensor));
     return reading;
 }
 

@@ -14,8 +14,6 @@ constexpr int max_reflections = 4;
 
 float power_heuristic(float a, float b) { return a * a / (a * a + b * b); }
 
-float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
-
 /// A surface that has the specular lobe of `s` and nothing else: a metal whose Fresnel factor, times the `k` that is
 /// set here, is that of `s`: k (c + (1 - c) Schlick).
 Surface specular_lobe(const SurfaceReader& reader, const Surface& s, float& k) {

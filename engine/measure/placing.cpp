@@ -47,7 +47,7 @@ std::vector<Facet> facets_around(const SurfaceReader& surfaces, const RayCaster&
     for (const uint t : found) {
         const std::array<vec3, 3> p{surfaces.corner_position(t, 0), surfaces.corner_position(t, 1),
                                     surfaces.corner_position(t, 2)};
-        const vec3 product = cross(p[1] - p[0], p[2] - p[0]);
+        const vec3 product = edge_product(p[0], p[1], p[2]);
         if (!(length(product) > 0)) continue;
         const vec3 n = product / length(product);
         facets.push_back({p, n, std::abs(dot(n, sensor.normal)) >= min_alignment});

@@ -7,6 +7,7 @@
 #include "measure/grid.h"
 #include "measure/option_parsing.h"
 #include "scene/surface.h"
+#include "scene/triangle.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -55,11 +56,9 @@ Faces faces_of(const SurfaceRequest& request, const Scene& scene) {
     double area = 0;
     for (uint t = 0; t < scene.triangles.size(); ++t) {
         if (scene.object_names[scene.triangle_objects[t]] != request.object) continue;
-        const uvec3 corner = scene.triangles[t];
-        const vec3 a = scene.positions[corner.x];
-        const vec3 doubled = cross(scene.positions[corner.y] - a, scene.positions[corner.z] - a);
-        const float size = length(doubled);
-        if (!(size > 0) || (request.facing != vec3(0) && dot(doubled, request.facing) < cos_45 * size)) continue;
+        const vec3 product = triangle_product(scene, t);
+        const float size = length(product);
+        if (!(size > 0) || (request.facing != vec3(0) && dot(product, request.facing) < cos_45 * size)) continue;
         faces.triangles.push_back(t);
         faces.area_below.push_back(area += 0.5 * double(size));
     }

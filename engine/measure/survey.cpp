@@ -8,9 +8,9 @@
 #include "base/memory.h"
 #include "maps/bake.h"
 #include "maps/bake_memory.h"
-#include "maps/probe.h"
 #include "measure/option_parsing.h"
 #include "measure/placing.h"
+#include "measure/probe.h"
 #include "scene/ambiance.h"
 #include "scene/lamp_factors.h"
 #include "trace/build_bvh.h"
@@ -193,10 +193,11 @@ void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey) {
                              std::vector<std::optional<Estimate>>(measured.set.sensors.size()));
     if (places.empty()) return;
     const Bvh bvh = build_bvh(scene);
+    const Probe probe(scene, caster, survey.map, bvh);
     const auto maintenance = double(survey.maintenance);
     for (size_t a = 0; a < survey.ambiances.size(); ++a) {
         const std::vector<vec3> powers = lamp_powers(scene, survey.ambiances[a].factors);
-        const std::vector<Measurement> read = measure(scene, caster, survey.map, bvh, powers, places);
+        const std::vector<Measurement> read = probe.measure(powers, places);
         for (size_t i = 0; i < read.size(); ++i)
             survey.sets[sensors[i].set].pins[a][sensors[i].sensor] = {maintenance * double(read[i].lux),
                                                                       maintenance * double(read[i].half_width_lux)};

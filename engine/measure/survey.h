@@ -54,7 +54,8 @@ Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, s
                    std::vector<AmbianceFactors> ambiances, const SurveySettings& settings);
 
 /// Fills MeasuredSet::pins: for each planar sensor that lies on a surface, the value that a pin of the walkthrough
-/// shows there. It is estimated from the photons on that surface itself (maps/probe.h), so it is an independent check.
+/// shows there. It is estimated from the photons on that surface itself (measure/probe.h), so it is an independent
+/// check.
 void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey);
 
 /// Fills MeasuredSet::traced: path traces every sensor that is not blocked, in the first ambiance, with `paths` paths

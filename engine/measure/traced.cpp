@@ -6,8 +6,8 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "image/tonemap.h"
 #include "measure/placing.h"
+#include "shaders/color.h"
 #include "trace/path_tracer.h"
 #include "trace/sampling.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "image/tonemap.h"
 #include "maps/estimate.h"
 #include "scene/camera.h"
+#include "shaders/color.h"
 #include "trace/build_bvh.h"
 #include "trace/emitter.h"
 

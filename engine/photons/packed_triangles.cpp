@@ -1,6 +1,7 @@
 #include "photons/packed_triangles.h"
 
 #include "base/parallel.h"
+#include "scene/triangle.h"
 
 namespace lw {
 namespace {
@@ -17,8 +18,8 @@ PackedTriangle packed_triangle_of(const Scene& scene, uint triangle) {
     const uvec3 c = scene.triangles[triangle];
     const Material& material = scene.material_of(triangle);
     PackedTriangle packed{};
-    packed.corners = {scene.positions[c.x], scene.positions[c.y], scene.positions[c.z]};
-    const vec3 product = cross(packed.corners[1] - packed.corners[0], packed.corners[2] - packed.corners[0]);
+    packed.corners = triangle_corners(scene, triangle);
+    const vec3 product = triangle_product(scene, triangle);
     const float size = length(product);
     packed.normal = size > 0 ? product / size : vec3(0, 1, 0);
     packed.base_color = material.base_color;

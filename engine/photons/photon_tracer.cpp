@@ -13,8 +13,6 @@ constexpr int max_path = 1000;  // most bounces of a path, for surfaces that abs
 constexpr int depth_of_roulette = 64;
 constexpr size_t states_at_once = 8;  // paths traced side by side: while one waits for memory, others go on
 
-float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
-
 /// The class of a path of class `path` after the bounce `next`. Light that goes straight on keeps its class, as shadow
 /// rays pass there too.
 uint path_after(uint path, const Scatter& next) {

@@ -22,9 +22,6 @@ struct Chunk {
     uint64_t shown = 0;  // hits of surfaces that can show light (not mirrors or clear glass)
 };
 
-/// The luminance of an RGB flux, for energy balances.
-double balance_of(vec3 flux);
-
 /// Traces the paths of photons. Scene and caster must outlive it. Thread-safe, except for guide().
 class PhotonTracer {
   public:

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "photons/photon_tracer.h"
+#include "shaders/color.h"
 
 namespace lw {
 namespace {
@@ -38,7 +39,7 @@ void guide_suns(PhotonTracer& tracer, const Scene& scene) {
                 Chunk path{light, i, i + 1, {}, 0, 0, 0};
                 tracer.trace(path, double(guide_paths));
                 for (const Photon& p : path.photons)
-                    useful_per_path[i] += p.path() == path_direct ? 0 : balance_of(p.flux);
+                    useful_per_path[i] += p.path() == path_direct ? 0 : precise_luminance(p.flux);
             },
             1024);
         std::vector<double> useful(EmissionGuide::side * EmissionGuide::side, 0);
@@ -63,7 +64,7 @@ std::vector<uint64_t> plan_emission(const PhotonTracer& tracer, const Scene& sce
         yield[pilot.light] += double(pilot.photons.size()) / traced[pilot.light];
         shown += pilot.shown;
         for (const Photon& p : pilot.photons)
-            useful[pilot.light] += balance_of(p.flux * scene.lights[pilot.light].intensity) *
+            useful[pilot.light] += precise_luminance(p.flux * scene.lights[pilot.light].intensity) *
                                    (p.path() == path_direct ? 0.05 : 1) * (double(pilot_paths) / traced[pilot.light]);
     }
     if (shown == 0)

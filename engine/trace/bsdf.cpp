@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/color.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -10,8 +11,6 @@ namespace {
 
 constexpr float narrow_roughness = 0.12f;  // a lobe at this roughness is some 2 degrees wide
 constexpr float min_share = 0.1f;  // least weight in the choice of a lobe of rough glass, whose Fresnel factor varies
-
-float largest(vec3 v) { return std::max({v.x, v.y, v.z}); }
 
 /// The surface as one viewing direction sees it: normals on its side, and how often each lobe is sampled.
 struct Lobes {

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "scene/triangle.h"
 
 namespace lw {
 namespace {
@@ -51,9 +52,8 @@ std::vector<RTCBuildPrimitive> primitives_of(const Scene& scene) {
     std::vector<RTCBuildPrimitive> primitives;
     primitives.reserve(scene.triangles.size());
     for (size_t t = 0; t < scene.triangles.size(); ++t) {
-        const uvec3 corner = scene.triangles[t];
-        const vec3 a = scene.positions[corner.x], b = scene.positions[corner.y], c = scene.positions[corner.z];
-        if (!(length(cross(b - a, c - a)) > 0)) continue;
+        const auto [a, b, c] = triangle_corners(scene, t);
+        if (!(length(edge_product(a, b, c)) > 0)) continue;
         const vec3 low = min(a, min(b, c)), high = max(a, max(b, c));
         const bool opaque = !(scene.material_of(uint(t)).flags & see_through_flags);
         const unsigned entry = unsigned(t) | (opaque ? 0 : bvh_see_through);

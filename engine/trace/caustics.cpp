@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "shaders/color.h"
+#include "shaders/kernel.h"
 #include "trace/bsdf.h"
 #include "trace/sampling.h"
 
@@ -153,7 +154,7 @@ void Caustics::visit_near(vec3 point, vec3 normal, const Visit& visit) const {
             const vec3 d = arrivals_[i].position - point;
             const float d2 = dot(d, d);
             if (d2 < r2 && dot(arrivals_[i].normal, normal) > min_alignment)
-                visit(arrivals_[i], 2 / (lw_pi * r2) * (1 - d2 / r2));
+                visit(arrivals_[i], kernel_peak(r2) * kernel_shape(d2 / r2));
         }
 }
 

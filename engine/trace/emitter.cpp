@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/triangle.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -89,10 +90,9 @@ vec3 Emitters::even_irradiance(uint index, vec3 point, vec3 normal) const {
         scene_.material_of(scene_.emitters[light.first_emitter].triangle).flags & material_double_sided;
     float sum = 0;
     for (uint i = 0; i < light.emitter_count; ++i) {
-        const uvec3 c = scene_.triangles[scene_.emitters[light.first_emitter + i].triangle];
-        const std::array<vec3, 3> corners{scene_.positions[c.x] - point, scene_.positions[c.y] - point,
-                                          scene_.positions[c.z] - point};
-        const float behind = dot(cross(corners[1] - corners[0], corners[2] - corners[0]), corners[0]);
+        std::array<vec3, 3> corners = triangle_corners(scene_, scene_.emitters[light.first_emitter + i].triangle);
+        for (vec3& corner : corners) corner -= point;
+        const float behind = dot(edge_product(corners[0], corners[1], corners[2]), corners[0]);
         if (behind >= 0 && !both_sides) continue;
         std::array<vec3, 4> above;
         const uint count = clip_to_horizon(corners, normal, above);
@@ -157,10 +157,9 @@ Surface Emitters::point_of(uint index, float u, float v) const {
 
 /// surface_at() for what a lamp that shines alike all over needs: its place and what it emits.
 Surface Emitters::even_point(uint triangle, vec2 barycentrics) const {
-    const uvec3 c = scene_.triangles[triangle];
-    const vec3 p0 = scene_.positions[c.x], p1 = scene_.positions[c.y], p2 = scene_.positions[c.z];
+    const auto [p0, p1, p2] = triangle_corners(scene_, triangle);
     const Material& material = scene_.material_of(triangle);
-    const vec3 product = cross(p1 - p0, p2 - p0);
+    const vec3 product = edge_product(p0, p1, p2);
     const float size = length(product);
     Surface s{};
     s.position = (1 - barycentrics.x - barycentrics.y) * p0 + barycentrics.x * p1 + barycentrics.y * p2;

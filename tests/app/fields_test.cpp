@@ -136,11 +136,12 @@ TEST(Pins, ReadNothingBeforeTheNearPlaneAsThePictureShowsNothing) {
     const TempFolder folder;
     Session session(cube.world, folder.path());
     session.metering.on = true;
+    const Probe probe(cube.world.scene, cube.world.caster, *cube.map, cube.world.bvh);
     for (const float near : {0.01f, 20.0f}) {
         session.near = near;
         session.metering.pins.clear();
-        measure_again(session, *cube.map, false);
-        pin_at(session, *cube.map, {100, 100}, {640, 400});
+        measure_again(session, probe, false);
+        pin_at(session, probe, {100, 100}, {640, 400});
         EXPECT_EQ(session.metering.live.has_value(), near < 1);
         EXPECT_EQ(session.metering.pins.size(), near < 1 ? 1u : 0u);
     }
@@ -151,8 +152,9 @@ TEST(Pins, ThatReadNoLightAreNotSaved) {
     const TempFolder folder;
     Session session(cube.world, folder.path());
     session.walker.pitch = -0.7f;
-    pin_at(session, *cube.map, {100, 100}, {640, 400});
-    pin_at(session, *cube.map, {320, 200}, {640, 400});
+    const Probe probe(cube.world.scene, cube.world.caster, *cube.map, cube.world.bvh);
+    pin_at(session, probe, {100, 100}, {640, 400});
+    pin_at(session, probe, {320, 200}, {640, 400});
     ASSERT_EQ(session.metering.pins.size(), 2u);
     const Measurement read = session.metering.pins[1].value;
     for (float Measurement::*number : {&Measurement::lux, &Measurement::half_width_lux, &Measurement::luminance})

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/room.h"
-#include "maps/probe.h"
+#include "measure/probe.h"
 #include "programs/lavapipe.h"
 #include "scene/camera.h"
 

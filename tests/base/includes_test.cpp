@@ -28,7 +28,8 @@ const std::map<std::string, Names> allowed_folders = {
     {"gather", {"base", "image", "scene", "maps", "gpu"}},
 };
 
-/// Start of a library's include path -> the sources of engine/ (files or folders) that may name it.
+/// Start of an include path, of a library or of the whole text of the gather -> the sources of engine/ (files or
+/// folders) that may name it.
 const std::map<std::string, std::vector<std::string>> fences = {
     {"embree", {"trace/ray_caster.", "trace/build_bvh."}},
     {"tiny_gltf", {"scene/gltf"}},
@@ -40,6 +41,9 @@ const std::map<std::string, std::vector<std::string>> fences = {
     {"GLFW/", {}},
     {"imgui", {}},
     {"spirv-tools/", {"gpu/specialize."}},
+    {"maps/estimate.h", {"measure/probe.", "measure/view."}},
+    {"shaders/gather.glsl", {"maps/estimate."}},
+    {"shaders/follow.glsl", {"maps/estimate."}},
     {"nlohmann/",
      {"scene/ambiance.", "scene/json_file.", "scene/recorded_path.", "scene/gltf_file.", "scene/gltf_ranges."}},
 };

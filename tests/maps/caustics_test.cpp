@@ -8,6 +8,7 @@
 #include "maps/estimate.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
+#include "shaders/color.h"
 #include "trace/build_bvh.h"
 #include "trace/caustics.h"
 #include "trace/emitter.h"
@@ -16,8 +17,6 @@ namespace lw {
 namespace {
 
 std::string file_in_data(const std::string& name) { return std::string(LUMENWALK_SOURCE_DIR "/data/") + name; }
-
-double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 struct Baked {
     Baked(const std::string& name, uint64_t count)
@@ -70,7 +69,7 @@ struct FloorLight {
             const int x = int(std::floor((at.x / side + 0.5f) * squares)),
                       z = int(std::floor((at.z / side + 0.5f) * squares));
             if (at.y > 1e-3f || a.normal.y < 0.9f || x < 0 || z < 0 || x >= squares || z >= squares) continue;
-            truth[size_t(z * squares + x)] += luminance(a.flux) / area;
+            truth[size_t(z * squares + x)] += precise_luminance(a.flux) / area;
         }
         const PhotonEstimator estimator(baked.scene, baked.map, weights, {});
         constexpr int fine = 8;
@@ -84,7 +83,7 @@ struct FloorLight {
                 const auto place = estimator.place_on(estimator.map_of(hit->triangle, true), s.position);
                 estimator.add_caustics(hit->triangle, true, 1, place, s, s.geometric_normal, s.normal, vec3(0, 1, 0),
                                        sum);
-                got[size_t(z / fine * squares + x / fine)] += luminance(sum.irradiance) / (fine * fine);
+                got[size_t(z / fine * squares + x / fine)] += precise_luminance(sum.irradiance) / (fine * fine);
             }
     }
     std::vector<double> truth, got;
@@ -147,11 +146,11 @@ TEST(CausticMap, TheLightOfCellsHoldsSmoothCausticsAsThePixelsGatherThem) {
         const auto seen = held.see(hit->triangle, hit->barycentrics, s.position + s.geometric_normal);
         if (seen.at.map == no_map || held.caustic_map_of(hit->triangle, seen.front) == no_map) continue;
         const float left = held.caustics_left(seen.at);
-        const double got = luminance(held.estimate_at(seen).irradiance),
-                     wanted = luminance(full.estimate_at(seen).irradiance);
+        const double got = precise_luminance(held.estimate_at(seen).irradiance),
+                     wanted = precise_luminance(full.estimate_at(seen).irradiance);
         Gathered own = held.no_light();
         full.add_caustics(hit->triangle, seen.front, 1, seen.at, s, seen.n_geometric, seen.n_shading, seen.to_eye, own);
-        caustic += luminance(own.irradiance);
+        caustic += precise_luminance(own.irradiance);
         ++points, sharp += left == 1, smooth += left == 0;
         sum += wanted, error += got - wanted, error2 += (got - wanted) * (got - wanted);
     }

@@ -14,6 +14,7 @@
 #include "maps/build.h"
 #include "photons/shoot.h"
 #include "scene/gltf.h"
+#include "scene/triangle.h"
 #include "trace/build_bvh.h"
 #include "trace/emitter.h"
 #include "trace/path_tracer.h"
@@ -107,8 +108,7 @@ TEST(Photons, StoredFluxOfAClosedBoxIsEmittedOverOneMinusAlbedo) {
 /// k nearest photons of the map over all its records, without the grid.
 Gathered brute_force(const Baked& baked, uint map, vec3 position, uint k) {
     const SurfaceGrid& grid = baked.map.grids[map];
-    const vec3 offset = position - grid.origin;
-    const vec3 local(dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal));
+    const vec3 local = position_in_grid(grid, position);
     std::vector<std::pair<float, uint>> near;
     const uint begin = baked.map.cell_starts[grid.first_cell],
                end = baked.map.cell_starts[grid.first_cell + grid.columns * grid.rows];
@@ -262,8 +262,7 @@ Difference compare_everywhere(const PhotonEstimator& got, const PhotonEstimator&
     double error2 = 0, error = 0, sum = 0;
     int count = 0;
     for (uint t = 0; t < scene.triangles.size(); ++t) {
-        const vec3 p0 = got.corner_position(t, 0);
-        const float area = 0.5f * length(cross(got.corner_position(t, 1) - p0, got.corner_position(t, 2) - p0));
+        const auto area = float(triangle_area(scene, t));
         for (int i = 0; i < int(20 * area + rng.next()); ++i) {
             const vec2 place = sample_triangle(rng.next(), rng.next());
             const vec3 n = got.surface_at(t, place).geometric_normal;
@@ -291,10 +290,12 @@ TEST(Estimate, LightOfCellsHoldsSmallLampsAsTheyAre) {
     const std::vector<vec3> weights = lamp_powers(scene, {});
     const PhotonEstimator from_cells(scene, map, weights, {}, bvh), exact(scene, by_rays, weights, {}, bvh);
     const CellLight cells(scene, map);
-    const uint stride = cell_words(uint(scene.lights.size()), map.has_marks());
+    const uint lamps = uint(scene.lights.size()), stride = cell_words(lamps, map.has_marks()),
+               marks = stride - cell_lamp_words(lamps);
     size_t held = 0;
-    for (size_t i = 0; i < cells.words().size(); ++i)
-        held += (i % stride > 0 || !map.has_marks()) && (cells.words()[i] & 0x01010101u * in_cell_light) != 0;
+    for (size_t cell = 0; cell < map.coverage.size(); ++cell)
+        for (uint word = marks; word < stride; ++word)
+            held += lamps_with(cells.words()[cell * stride + word], in_cell_light) != 0;
     EXPECT_GT(held, map.coverage.size() / 4);
     const Difference difference = compare_everywhere(from_cells, exact, scene);
     EXPECT_LT(std::abs(difference.bias), 0.003);

@@ -6,6 +6,7 @@
 
 #include "photons/shoot.h"
 #include "scene/gltf.h"
+#include "shaders/color.h"
 #include "trace/caustics.h"
 #include "trace/path_tracer.h"
 
@@ -13,8 +14,6 @@ namespace lw {
 namespace {
 
 std::string file_in_data(const std::string& name) { return std::string(LUMENWALK_SOURCE_DIR "/data/") + name; }
-
-double luminance(vec3 c) { return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z); }
 
 uint lamp_named(const Scene& scene, const std::string& name) {
     for (uint i = 0; i < scene.light_names.size(); ++i)
@@ -49,7 +48,7 @@ std::array<double, 4> floor_lux(const Scene& scene, const Photons& photons, uint
     for (const Photon& p : photons.records) {
         const vec3 at = p.position + origin;
         if (p.light() != lamp || at.y > 1e-3f || std::abs(at.x - x) > half || std::abs(at.z - z) > half) continue;
-        lux[p.path()] += luminance(p.flux * scene.lights[lamp].intensity) / double(4 * half * half);
+        lux[p.path()] += precise_luminance(p.flux * scene.lights[lamp].intensity) / double(4 * half * half);
     }
     return lux;
 }
@@ -65,7 +64,7 @@ double traced_lux(const Scene& scene, const RayCaster& caster, uint lamp, float 
         Rng rng(4, 4, uint64_t(i));
         const vec3 world(x + half * (2 * rng.next() - 1), 0, z + half * (2 * rng.next() - 1));
         const vec3 point = caster.offset(world - vec3(scene.origin), vec3(0, 1, 0));
-        const double lux = luminance(tracer.irradiance(point, vec3(0, 1, 0), rng, caustics));
+        const double lux = precise_luminance(tracer.irradiance(point, vec3(0, 1, 0), rng, caustics));
         sum += lux, sum2 += lux * lux;
     }
     error = std::sqrt(std::max(0.0, sum2 / samples - sum * sum / samples / samples) / samples);
@@ -149,8 +148,8 @@ TEST(GlassPhotons, ALampBehindASolidCoverLightsTheRoom) {
     double first = 0, direct = 0;
     for (const Photon& p : photons.records) {
         if (p.light() != spot || p.path() == path_indirect) continue;
-        first += luminance(p.flux);
-        direct += p.path() == path_direct ? luminance(p.flux) : 0;
+        first += precise_luminance(p.flux);
+        direct += p.path() == path_direct ? precise_luminance(p.flux) : 0;
     }
     EXPECT_EQ(direct, 0);
     EXPECT_NEAR(first / photons.lights[spot].flux_out, 1, 0.01);
@@ -178,15 +177,16 @@ TEST(GlassPhotons, BentNormalsThrowTheSameLightForPhotonsAndPaths) {
             const vec3 place = p.position + origin;
             if (p.light() != bulb || p.path() != path_indirect || place.y < 2.599f) continue;
             if (std::abs(place.x - at.x) < 0.5f && std::abs(place.z - at.y) < 0.5f)
-                counted += luminance(p.flux * weights[bulb]) / 1.0;
+                counted += precise_luminance(p.flux * weights[bulb]) / 1.0;
         }
         constexpr int samples = 60000;
         for (int i = 0; i < samples; ++i) {
             Rng rng(6, 6, uint64_t(i));
             const vec3 world(at.x + 0.5f * (2 * rng.next() - 1), 2.6f, at.y + 0.5f * (2 * rng.next() - 1));
             const vec3 point = caster.offset(world - origin, down), to_bulb = scene.lights[bulb].position - point;
-            const double direct = luminance(weights[bulb]) * double(dot(to_bulb, down)) / std::pow(length(to_bulb), 3);
-            traced += (luminance(tracer.irradiance(point, down, rng)) - direct) / samples;
+            const double direct =
+                precise_luminance(weights[bulb]) * double(dot(to_bulb, down)) / std::pow(length(to_bulb), 3);
+            traced += (precise_luminance(tracer.irradiance(point, down, rng)) - direct) / samples;
         }
         EXPECT_NEAR(counted / traced, 1, 0.05) << at.x;
     }
@@ -205,7 +205,7 @@ TEST(GlassPhotons, LightCaughtByTotalReflectionEnds) {
     EXPECT_NEAR((b.absorbed + b.escaped) / b.flux_out, 1, 1e-9);
     double caustic = 0;
     for (const Photon& p : photons.records)
-        if (p.light() == bulb && p.path() == path_caustic) caustic += luminance(p.flux);
+        if (p.light() == bulb && p.path() == path_caustic) caustic += precise_luminance(p.flux);
     EXPECT_GT(caustic, 0.27 * b.flux_out);  // what meets the surface below the critical angle leaves at once: 28 %
     EXPECT_LT(caustic, 0.5 * b.flux_out);
     const PathTracer tracer(scene, caster, lamp_powers(scene, {}));

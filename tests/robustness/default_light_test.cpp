@@ -26,7 +26,7 @@ struct DefaultLight {
         const std::optional<Hit> hit = baked.caster.nearest(vec3(from - baked.scene.origin), vec3(direction));
         if (!hit) return -1;
         const vec3 light = estimator.estimate(hit->triangle, hit->barycentrics, vec3(-direction)).irradiance;
-        return double(dot(light, vec3(0.2126f, 0.7152f, 0.0722f)));
+        return double(luminance(light));
     }
 
     Baked baked;

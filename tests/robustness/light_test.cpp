@@ -19,8 +19,6 @@ namespace {
 
 constexpr uint modes[] = {gather_mode_cached, gather_mode_smooth, gather_mode_exact};
 
-double luminance_of(vec3 c) { return double(dot(c, vec3(0.2126f, 0.7152f, 0.0722f))); }
-
 bool is_light(vec3 v) { return std::isfinite(v.x + v.y + v.z) && v.x >= 0 && v.y >= 0 && v.z >= 0; }
 
 /// Illuminance below `height` at (x, z) of the room, looking straight down.
@@ -31,7 +29,7 @@ double lux_below(const Baked& baked, const Room& room, glm::dvec3 from, uint mod
     const glm::dvec3 world = glm::dvec3(room.node * glm::dvec4(from, 1)) - baked.scene.origin;
     const std::optional<Hit> hit = baked.caster.nearest(vec3(world), vec3(0, -1, 0));
     if (!hit) throw Error("nothing below");
-    return luminance_of(estimator.estimate(hit->triangle, hit->barycentrics, vec3(0, 1, 0)).irradiance);
+    return precise_luminance(estimator.estimate(hit->triangle, hit->barycentrics, vec3(0, 1, 0)).irradiance);
 }
 
 /// All readings are numbers, on corners and edges of all triangles too; returns the largest.
@@ -49,7 +47,7 @@ double check_everywhere(const Baked& baked, const Room& room) {
                         const Gathered light = estimator.estimate(t, at, s.geometric_normal * side);
                         EXPECT_TRUE(is_light(light.irradiance) && is_light(light.radiance))
                             << "mode " << mode << " k " << neighbours << " triangle " << t;
-                        most = std::max(most, luminance_of(light.irradiance));
+                        most = std::max(most, precise_luminance(light.irradiance));
                     }
         }
     for (double lux : read(baked, room, gather_mode_smooth).lux) EXPECT_TRUE(std::isfinite(lux));
@@ -193,8 +191,8 @@ TEST(Light, OfADimLampStandsBesideOneAMillionTimesBrighter) {
     double sum = 0, expected_sum = 0;
     for (uint t = 0; t < both.scene.triangles.size(); ++t) {
         const vec3 n = estimator.surface_at(t, vec2(0.3f)).geometric_normal;
-        sum += luminance_of(estimator.estimate(t, vec2(0.3f), n).irradiance);
-        expected_sum += luminance_of(expected.estimate(t, vec2(0.3f), n).irradiance);
+        sum += precise_luminance(estimator.estimate(t, vec2(0.3f), n).irradiance);
+        expected_sum += precise_luminance(expected.estimate(t, vec2(0.3f), n).irradiance);
     }
     tell_case("a lamp beside one a million times brighter, alone", "what it gives without the other, +-5 %", "%+.2f %%",
               100 * (sum / expected_sum - 1));

@@ -178,7 +178,7 @@ Readings read(const Baked& baked, const Room& room, uint mode) {
         readings.places.emplace_back(0);
         if (!hit) continue;
         const Gathered light = estimator.estimate(hit->triangle, hit->barycentrics, -ray, uint(i));
-        readings.lux.back() = double(dot(light.irradiance, vec3(0.2126f, 0.7152f, 0.0722f)));
+        readings.lux.back() = double(luminance(light.irradiance));
         const glm::dvec3 world = baked.scene.origin + eye + glm::dvec3(ray) * double(hit->distance);
         readings.places.back() = (glm::dvec3(back * glm::dvec4(world, 1)) - room.eye) / room.unit;
     }

@@ -77,7 +77,7 @@ double lux_on_floor(const Baked& baked, const PhotonEstimator& estimator, glm::d
     const std::optional<Hit> hit = baked.caster.nearest(vec3(above), vec3(0, -1, 0));
     if (!hit) return -1;
     const vec3 lux = estimator.estimate(hit->triangle, hit->barycentrics, vec3(0, 1, 0)).irradiance;
-    return double(dot(lux, vec3(0.2126f, 0.7152f, 0.0722f)));
+    return double(luminance(lux));
 }
 
 std::string words_of(std::string name) {

@@ -65,7 +65,7 @@ double lux_at(const Baked& baked, const PhotonEstimator& estimator, glm::dvec3 f
     const std::optional<Hit> hit = baked.caster.nearest(vec3(from - baked.scene.origin), vec3(direction));
     if (!hit) return -1;
     const vec3 lux = estimator.estimate(hit->triangle, hit->barycentrics, vec3(-direction)).irradiance;
-    return double(dot(lux, vec3(0.2126f, 0.7152f, 0.0722f)));
+    return double(luminance(lux));
 }
 
 std::string words_of(std::string name) {

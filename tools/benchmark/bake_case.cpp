@@ -12,18 +12,16 @@
 
 namespace lw {
 
-const std::vector<GatherMode>& gather_modes() {
-    static const std::vector<GatherMode> modes{{"exact kNN", 0, true, PhotonEstimator::heap_size},
-                                               {"smooth", 1, true, 1'000'000},
-                                               {"cached", 2, false, 50},  // its neighbours are the bake's
-                                               {"cached, no rays", 2, false, 50, 0}};
+std::vector<MeasuredMode> measured_modes() {
+    const auto max_neighbours = [](uint mode) {
+        if (mode == gather_mode_exact) return max_exact_neighbours;
+        return mode == gather_mode_cached ? 50u : 1'000'000u;  // those of the cached mode are the bake's
+    };
+    std::vector<MeasuredMode> modes;
+    for (const GatherMode& m : gather_modes) modes.push_back({m.name, m.mode, max_neighbours(m.mode)});
+    const GatherMode& fastest = gather_mode(gather_mode_cached);
+    modes.push_back({std::string(fastest.name) + ", no rays", fastest.mode, max_neighbours(fastest.mode), 0});
     return modes;
-}
-
-const char* name_of_mode(uint mode) {
-    for (const GatherMode& m : gather_modes())
-        if (m.mode == mode) return m.name;
-    return "?";
 }
 
 BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesystem::path& folder)

@@ -7,7 +7,7 @@
 
 #include "gather/gather_pass.h"
 #include "gather/renderer.h"
-#include "maps/estimate.h"
+#include "maps/gather_settings.h"
 #include "maps/photon_map.h"
 #include "photons/photon.h"
 #include "table.h"
@@ -17,17 +17,15 @@
 namespace lw {
 
 /// A way to gather and the numbers of photons per estimate it is measured at.
-struct GatherMode {
-    const char* name;
-    uint mode;    // GatherSettings::mode
-    bool on_cpu;  // PhotonEstimator evaluates it, so that candidates can be counted
-    uint most;    // largest number of neighbours it takes
+struct MeasuredMode {
+    std::string name;
+    uint mode;            // GatherSettings::mode
+    uint max_neighbours;  // that are measured
     uint shadow_rays = GatherSettings{}.shadow_rays;
 };
 
-/// Every mode that GatherSettings has; the sections iterate over this table.
-const std::vector<GatherMode>& gather_modes();
-const char* name_of_mode(uint mode);
+/// All of gather_modes, and the default one without shadow rays; the sections iterate over this table.
+std::vector<MeasuredMode> measured_modes();
 
 struct BakeCost {
     Cost hierarchy, trace, maps, write, load;

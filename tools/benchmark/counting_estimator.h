@@ -1,57 +1,30 @@
 // The text of the gather over readers that count: what a pixel reads and tests, on any device.
 #pragma once
+#include <array>
+
 #include "maps/estimate.h"
 
 namespace lw {
 
 /// Records read, by kind.
-struct Reads {
-    uint64_t surfaces = 0, grids = 0, cells = 0, photons = 0, photon_light = 0, directions = 0, nodes = 0,
-             triangles = 0, words = 0;
+class Reads {
+  public:
+    void operator()(Record kind) const { ++counts_[size_t(kind)]; }
+    uint64_t of(Record kind) const { return counts_[size_t(kind)]; }
 
     /// As they lie on the device: 96 bytes for the corners of a triangle, 36 for their positions alone.
     double bytes() const {
-        return double(surfaces) * (96 + sizeof(Material)) + double(grids) * sizeof(SurfaceGrid) +
-               double(cells) * sizeof(uvec4) + double(photons) * sizeof(PhotonPlace) +
-               4 * double(photon_light + words) + 2 * double(directions) + double(nodes) * sizeof(BvhNode) +
-               40 * double(triangles);
+        const auto count = [this](Record kind) { return double(of(kind)); };
+        return count(Record::surface) * (96 + sizeof(Material)) + count(Record::grid) * sizeof(SurfaceGrid) +
+               count(Record::cell) * sizeof(uvec4) + count(Record::photon) * sizeof(PhotonPlace) +
+               4 * (count(Record::flux) + count(Record::word)) + 2 * count(Record::direction) +
+               count(Record::box) * sizeof(BvhNode) + 40 * count(Record::triangle);
     }
+
+  private:
+    mutable std::array<uint64_t, size_t(Record::word) + 1> counts_{};
 };
 
-class CountingEstimator : public PhotonEstimator {
-  public:
-    using PhotonEstimator::PhotonEstimator;
-
-    Surface surface_at(uint triangle, vec2 barycentrics) const {
-        return ++reads.surfaces, PhotonEstimator::surface_at(triangle, barycentrics);
-    }
-    const SurfaceGrid& grid_at(uint map) const { return ++reads.grids, PhotonEstimator::grid_at(map); }
-    PhotonPlace photon_place(uint i) const { return ++reads.photons, PhotonEstimator::photon_place(i); }
-    uint photon_flux(uint i) const { return ++reads.photon_light, PhotonEstimator::photon_flux(i); }
-    uint photon_direction(uint i) const { return ++reads.directions, PhotonEstimator::photon_direction(i); }
-    uvec4 cell_light(uint cell) const { return ++reads.cells, PhotonEstimator::cell_light(cell); }
-    uvec4 shadow_mask(uint i) const { return ++reads.cells, PhotonEstimator::shadow_mask(i); }
-    uint cell_word(uint word) const { return ++reads.words, PhotonEstimator::cell_word(word); }
-    uint cell_start(uint cell) const { return ++reads.words, PhotonEstimator::cell_start(cell); }
-    uint node_coverage(uint node) const { return ++reads.words, PhotonEstimator::node_coverage(node); }
-    uint map_of(uint triangle, bool front) const { return ++reads.words, PhotonEstimator::map_of(triangle, front); }
-    uint caustic_map_of(uint triangle, bool front) const {
-        return ++reads.words, PhotonEstimator::caustic_map_of(triangle, front);
-    }
-    const BvhNode& bvh_node_at(uint i) const { return ++reads.nodes, PhotonEstimator::bvh_node_at(i); }
-    uint bvh_triangle_at(uint i) const { return ++reads.triangles, PhotonEstimator::bvh_triangle_at(i); }
-
-#include "shaders/gather.glsl"
-#include "shaders/rays.glsl"
-
-#include "shaders/caustics.glsl"
-#include "shaders/direct.glsl"
-
-#include "shaders/shade.glsl"
-
-#include "shaders/follow.glsl"
-
-    mutable Reads reads;
-};
+using CountingEstimator = GatherText<Reads>;
 
 }  // namespace lw

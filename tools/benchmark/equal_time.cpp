@@ -74,7 +74,7 @@ std::vector<Row> measure_subject(const Bench& bench, Subject subject) {
     const ReferenceView view{find_camera(baked.scene, subject.camera), width, height, subject.reference_samples};
     const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster, view);
     const TimedFrame frame =
-        CaseOnDevice(bench.device, baked).render(view.camera, {width, height, 3}, GatherSettings());
+        CaseOnDevice(bench.device, baked).render(view.camera, {width, height, 3}, GatherSettings{});
     const FrameError gather_error = error_of(frame.rendering.image, reference, Quantity::luminance);
 
     std::vector<Row> rows{tracer_row(subject.name, "gather", frame.total_ms(), 0)};

@@ -36,7 +36,7 @@ constexpr Constant constants[] = {
 
 /// What the shader of a scene is compiled with.
 std::string variant_of(const CaseOnDevice& on_device) {
-    const FrameConstants values = on_device.constants(GatherSettings());
+    const FrameConstants values = on_device.constants(GatherSettings{});
     std::string names;
     for (const Constant& c : constants)
         if (values.*c.member) names += (names.empty() ? "" : ", ") + std::string(c.name);
@@ -69,7 +69,7 @@ Row measure_variant(const Bench& bench, const Variant& variant) {
     const BakedCase baked(make_room(room), bake, bench.folder);
     const CaseOnDevice on_device(bench.device, baked);
     const uint side = bench.pick(128u, 250u);
-    const TimedFrame frame = on_device.render(baked.scene.cameras[0], {side, side, 3}, GatherSettings());
+    const TimedFrame frame = on_device.render(baked.scene.cameras[0], {side, side, 3}, GatherSettings{});
     const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster,
                                              {baked.scene.cameras[0], side, side, bench.pick<uint64_t>(32, 256)});
     Row row{{"room", variant.name},

@@ -8,6 +8,7 @@
 #include "scene/camera.h"
 #include "scene/gltf.h"
 #include "sections.h"
+#include "shaders/color.h"
 #include "trace/caustics.h"
 
 namespace lw {
@@ -102,7 +103,7 @@ std::vector<bool> Measured::caustic_pixels(const TimedFrame& frame) const {
         const Surface s = surfaces.surface_at(hit->triangle, hit->barycentrics);
         if (casts_caustics(s)) continue;  // keeps none
         const vec3 n = s.geometric_normal * (dot(s.geometric_normal, direction) > 0 ? -1.0f : 1.0f);
-        lit[i] = double(dot(caustics.irradiance(s.position, n), vec3(0.2126f, 0.7152f, 0.0722f))) > 0.5 * mean;
+        lit[i] = double(luminance(caustics.irradiance(s.position, n))) > 0.5 * mean;
     }
     return lit;
 }
@@ -122,7 +123,7 @@ std::vector<Row> measure_threshold(const Bench& bench, float roughness) {
             const TimedFrame frame = room.render(gather, 1);
             const FrameError error = room.error(frame, floor);
             rows.push_back({{"roughness", roughness},
-                            {"mode", name_of_mode(mode)},
+                            {"mode", gather_mode(mode).name},
                             {"lobe", followed > 0 ? "followed, 16 paths" : "photons"},
                             {"rmse_%", 100 * error.rmse_without_noise},
                             {"bias_%", 100 * error.bias},
@@ -137,7 +138,7 @@ std::vector<Row> measure_room(const Bench& bench, const Room& described) {
     std::vector<Row> rows;
     for (uint views : {1u, 8u, 64u, 256u, 1024u}) {
         if (views > bench.pick(256u, described.max_views)) break;
-        const TimedFrame frame = room.render(GatherSettings(), views < 32 ? 3 : 1, views);
+        const TimedFrame frame = room.render(GatherSettings{}, views < 32 ? 3 : 1, views);
         Row row{{"room", described.file},
                 {"material", described.material},
                 {"roughness", described.roughness},

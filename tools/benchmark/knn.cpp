@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "rooms.h"
+#include "scene/triangle.h"
 #include "sections.h"
 #include "visible_points.h"
 
@@ -119,10 +120,7 @@ Row measure_structure(const Bench& bench, const BakedCase& baked, const std::vec
 /// Radius that holds k photons at the mean density of the scene, m.
 float mean_radius(const Scene& scene, size_t photons) {
     double area = 0;
-    for (const uvec3& t : scene.triangles) {
-        const vec3 a = scene.positions[t.x];
-        area += 0.5 * double(length(cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
-    }
+    for (size_t t = 0; t < scene.triangles.size(); ++t) area += triangle_area(scene, t);
     return float(std::sqrt(wanted * area / (double(lw_pi) * double(photons))));
 }
 

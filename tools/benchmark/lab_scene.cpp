@@ -34,22 +34,22 @@ void LabScene::begin_object(const std::string& name, float albedo, float radianc
 }
 
 void LabScene::add_triangle(vec3 a, vec3 b, vec3 c) {
-    const vec3 doubled = cross(b - a, c - a);
-    if (length(doubled) < 1e-12f) return;
+    const vec3 product = edge_product(a, b, c);
+    if (length(product) < 1e-12f) return;
     const auto first = uint(scene_.positions.size());
     for (const vec3 p : {a, b, c}) {
         scene_.positions.push_back(p);
-        scene_.normals.push_back(normalize(doubled));
+        scene_.normals.push_back(normalize(product));
     }
     scene_.triangles.push_back({first, first + 1, first + 2});
     scene_.triangle_objects.push_back(uint(scene_.objects.size() - 1));
     const int lamp = scene_.objects.back().light;
     if (lamp < 0) return;
     Light& light = scene_.lights[size_t(lamp)];
-    light.area += 0.5f * length(doubled);
+    light.area += 0.5f * length(product);
     light.emitter_count++;
     light.position = a;
-    light.direction = normalize(doubled);
+    light.direction = normalize(product);
     scene_.emitters.push_back({uint(scene_.triangles.size() - 1), light.area});
 }
 

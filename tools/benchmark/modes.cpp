@@ -14,10 +14,10 @@ namespace {
 
 /// Photons tested at a point. The exact search reads each accepted photon once more when it is added.
 double candidates(const CountingEstimator& estimator, const VisiblePoint& p, bool exact) {
-    const uint64_t before = estimator.reads.photons;
+    const uint64_t before = estimator.counted.of(Record::photon);
     const Gathered sum = estimator.gather_photons(estimator.place_on(p.map, p.surface.position), p.surface,
                                                   p.geometric_normal, p.shading_normal, p.to_view);
-    return double(estimator.reads.photons - before) - (exact ? double(sum.photons) : 0.0);
+    return double(estimator.counted.of(Record::photon) - before) - (exact ? double(sum.photons) : 0.0);
 }
 
 double mean_candidates(const BakedCase& baked, const std::vector<VisiblePoint>& points, const GatherSettings& gather) {
@@ -38,15 +38,15 @@ struct View {
     bool cached_only = false;  // exact direct light and the modes that read the lattice
 };
 
-std::vector<uint> neighbours_of(const GatherMode& mode, bool quick) {
+std::vector<uint> neighbours_of(const MeasuredMode& mode, bool quick) {
     const std::vector<uint> wanted = quick ? std::vector<uint>{50, 500} : std::vector<uint>{50, 200, 500};
     std::vector<uint> allowed;
     for (uint k : wanted)
-        if (k <= mode.most && !(quick && mode.mode == 0 && k > 50)) allowed.push_back(k);
+        if (k <= mode.max_neighbours && !(quick && mode.mode == gather_mode_exact && k > 50)) allowed.push_back(k);
     return allowed;
 }
 
-Row mode_row(const View& view, const BakedCase& baked, const GatherMode& mode, uint k, const TimedFrame& frame) {
+Row mode_row(const View& view, const BakedCase& baked, const MeasuredMode& mode, uint k, const TimedFrame& frame) {
     const PassTimes& times = frame.rendering.times;
     return {{"scene", view.scene_name},
             {"pixels", std::to_string(view.width) + "x" + std::to_string(view.height)},
@@ -69,14 +69,15 @@ std::vector<Row> measure_case(const Bench& bench, const View& view, const BakedC
     const auto points = visible_points(baked.scene, *baked.caster, baked.map, seen.camera, view.width, view.height);
     const CaseOnDevice on_device(bench.device, baked);
     std::vector<Row> rows;
-    for (const GatherMode& mode : gather_modes()) {
+    for (const MeasuredMode& mode : measured_modes()) {
         if (view.cached_only && mode.mode != gather_mode_cached) continue;
         for (uint k : neighbours_of(mode, bench.quick)) {
             const GatherSettings gather{mode.mode, k, mode.shadow_rays};
             const uint frames = mode.mode == gather_mode_cached ? 15 : 3;  // milliseconds, or up to seconds
             const TimedFrame frame = on_device.render(seen.camera, {view.width, view.height, frames}, gather);
             rows.push_back(mode_row(view, baked, mode, k, frame));
-            if (mode.on_cpu) rows.back()["candidates_per_pixel"] = mean_candidates(baked, points, gather);
+            if (mode.mode != gather_mode_cached)
+                rows.back()["candidates_per_pixel"] = mean_candidates(baked, points, gather);
             add_error(rows.back(), error_of(frame.rendering.image, reference, Quantity::illuminance, border, gathered));
         }
     }

@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "scene/triangle.h"
 
 namespace lw {
 
@@ -41,15 +42,6 @@ constexpr float surplus = 1.35f;  // photons looked at per photon wanted, so tha
 using Floats = float __attribute__((vector_size(16)));
 using Words = int __attribute__((vector_size(16)));
 Floats to_floats(Words w) { return __builtin_convertvector(w, Floats); }
-
-vec3 to_local(const SurfaceGrid& grid, vec3 position) {
-    const vec3 offset = position - grid.origin;
-    return {dot(offset, grid.u_axis), dot(offset, grid.v_axis), dot(offset, grid.normal)};
-}
-
-vec3 to_world(const SurfaceGrid& grid, vec3 local) {
-    return grid.origin + local.x * grid.u_axis + local.y * grid.v_axis + local.z * grid.normal;
-}
 
 /// What a photon of the whole scene must pass to count at a query: the rules by which a map refers to it
 /// (engine/maps/references.cpp, with the distance to the query for that to the map) and by which the gather takes it.
@@ -136,7 +128,7 @@ void NearestPhotons::select(size_t found_count) {
 
 vec3 MapGridSearch::position(const Query& query, uint index) const {
     const SurfaceGrid& grid = map_.grids[query.map];
-    return to_world(grid, place_in_grid(map_.places[index], grid));
+    return position_of(grid, place_in_grid(map_.places[index], grid));
 }
 
 /// The radius within which somewhat more than the wanted photons lie, from the counts of a growing window of cells.
@@ -219,7 +211,7 @@ NearestPhotons::Entry* MapGridSearch::collect_run(const Disc& disc, uint first, 
 /// Looks as far as the cells say, farther if that was not far enough, and selects.
 void MapGridSearch::find(const Query& query, NearestPhotons& nearest) const {
     const SurfaceGrid& grid = map_.grids[query.map];
-    const vec3 local = to_local(grid, query.position);
+    const vec3 local = position_in_grid(grid, query.position);
     const float farthest = std::sqrt(nearest.bound());
     Disc disc{grid, local, std::min(expected_radius(grid, local, nearest.wanted()), farthest)};
     size_t count = collect(disc, nearest);
@@ -249,7 +241,7 @@ MapTreeSearch::~MapTreeSearch() = default;
 /// The tree knows the distance in the plane; the height is added, so that the 3D distance decides.
 void MapTreeSearch::find(const Query& query, NearestPhotons& nearest) const {
     const SurfaceGrid& grid = map_.grids[query.map];
-    const vec3 local = to_local(grid, query.position);
+    const vec3 local = position_in_grid(grid, query.position);
     const vec3* points = points_[query.map]->local;
     search(*trees_[query.map], &local.x, nearest, [&](uint index, float& distance_squared) {
         const float height = points[index].z - local.z;
@@ -259,7 +251,7 @@ void MapTreeSearch::find(const Query& query, NearestPhotons& nearest) const {
 }
 
 vec3 MapTreeSearch::position(const Query& query, uint index) const {
-    return to_world(map_.grids[query.map], points_[query.map]->local[index]);
+    return position_of(map_.grids[query.map], points_[query.map]->local[index]);
 }
 
 PhotonCloud::PhotonCloud(const Scene& scene, const std::vector<Photon>& photons)
@@ -267,9 +259,7 @@ PhotonCloud::PhotonCloud(const Scene& scene, const std::vector<Photon>& photons)
     parallel_for(
         photons.size(),
         [&](size_t i) {
-            const uvec3 corner = scene.triangles[photons[i].triangle];
-            const vec3 a = scene.positions[corner.x];
-            const vec3 n = normalize(cross(scene.positions[corner.y] - a, scene.positions[corner.z] - a));
+            const vec3 n = normalize(triangle_product(scene, photons[i].triangle));
             positions[i] = photons[i].position;
             normals[i] = photons[i].side() ? -n : n;
         },

@@ -103,8 +103,8 @@ class RoomMaker {
     }
     /// The triangles at the poles of a sphere have no area and are left out.
     void add_triangle(uvec3 corners) {
-        const vec3 a = scene_.positions[corners.x];
-        if (length(cross(scene_.positions[corners.y] - a, scene_.positions[corners.z] - a)) < 1e-10f) return;
+        const std::vector<vec3>& p = scene_.positions;
+        if (length(edge_product(p[corners.x], p[corners.y], p[corners.z])) < 1e-10f) return;
         scene_.triangles.push_back(corners);
         scene_.triangle_objects.push_back(uint(scene_.objects.size() - 1));
     }

@@ -95,7 +95,7 @@ Row measure_point(const Bench& bench, const Point& point) {
         add_bake(row, baked);
         const uint side = base_side(bench);
         const TimedFrame frame =
-            CaseOnDevice(bench.device, baked).render(baked.scene.cameras[0], {side, side, 3}, GatherSettings());
+            CaseOnDevice(bench.device, baked).render(baked.scene.cameras[0], {side, side, 3}, GatherSettings{});
         add_frame(row, frame);
         add_error(row, error_at_base_size(bench, baked, frame));
     } catch (const Error& refusal) {
@@ -112,14 +112,14 @@ std::vector<Row> measure_pixels(const Bench& bench) {
     const CaseOnDevice on_device(bench.device, baked);
     const uint side = base_side(bench);
     const FrameError error =
-        error_at_base_size(bench, baked, on_device.render(baked.scene.cameras[0], {side, side, 1}, GatherSettings()));
+        error_at_base_size(bench, baked, on_device.render(baked.scene.cameras[0], {side, side, 1}, GatherSettings{}));
     std::vector<uvec2> sizes{{128, 128}, {256, 256}};
     if (!bench.quick) sizes.insert(sizes.end(), {{512, 512}, {1280, 720}, {1920, 1080}});
     std::vector<Row> rows;
     for (uvec2 size : sizes) {
         Row row{{"axis", "pixels"}, {"value", size.x * size.y}};
         add_bake(row, baked);
-        add_frame(row, on_device.render(baked.scene.cameras[0], {size.x, size.y, 3}, GatherSettings()));
+        add_frame(row, on_device.render(baked.scene.cameras[0], {size.x, size.y, 3}, GatherSettings{}));
         add_error(row, error);
         rows.push_back(std::move(row));
     }

@@ -2,8 +2,10 @@
 // 4,000,000 photons, 500x500; global 3D kd-tree against the maps of triangles.
 #include "accuracy.h"
 #include "base/parallel.h"
+#include "maps/estimate.h"
 #include "rooms.h"
 #include "sections.h"
+#include "shaders/color.h"
 #include "visible_points.h"
 
 namespace lw {
@@ -48,7 +50,7 @@ void integrate_all(const std::vector<VisiblePoint>& points, const Found& found, 
             Gathered sum{vec3(0), vec3(0), 0, 0};
             const float kernel = 1.0f / (lw_pi * found.radius_squared[i]);
             for (uint n = 0; n < found.counts[i]; ++n) add(found.indices[i * wanted + n], kernel, points[i], sum);
-            lux[points[i].pixel] = dot(sum.irradiance, vec3(0.2126f, 0.7152f, 0.0722f));
+            lux[points[i].pixel] = luminance(sum.irradiance);
         },
         256);
 }
@@ -138,19 +140,19 @@ std::vector<Table> measure_table1(const Bench& bench) {
     Subject subject{bench, baked, {baked.scene.cameras[0], side, side, bench.pick<uint64_t>(32, 512)}, {}, {}};
     subject.reference = cached_reference(bench.folder, baked.scene, *baked.caster, subject.view);
     subject.points = visible_points(baked.scene, *baked.caster, baked.map, subject.view.camera, side, side);
-    const PhotonEstimator estimator(baked.scene, baked.map, baked.powers, {0, wanted});
+    const PhotonEstimator estimator(baked.scene, baked.map, baked.powers, {gather_mode_exact, wanted});
 
     std::vector<Row> rows = paper_rows();
     rows.push_back(measure_tree(subject, estimator));
     rows.push_back(measure_maps(subject, estimator));
-    for (const GatherMode& mode : gather_modes())
-        rows.push_back(measure_on_device(subject, baked, (std::string(mode.name) + ", photons hold all light").c_str(),
-                                         {mode.mode, wanted}));
+    for (const MeasuredMode& mode : measured_modes())
+        rows.push_back(
+            measure_on_device(subject, baked, (mode.name + ", photons hold all light").c_str(), {mode.mode, wanted}));
     bake.direct_in_photons = false;
     const BakedCase exact_direct(make_room({}), bake, bench.folder);
     const GatherSettings fast;
     rows.push_back(measure_on_device(subject, exact_direct,
-                                     (std::string(name_of_mode(fast.mode)) + ", the default").c_str(), fast));
+                                     (std::string(gather_mode(fast.mode).name) + ", the default").c_str(), fast));
     Table table{"table1", "times",
                 "Table 1: furnished room of " + std::to_string(baked.scene.triangles.size()) + " triangles, " +
                     std::to_string(baked.photons.records.size()) + " photons, " + std::to_string(side) + "x" +

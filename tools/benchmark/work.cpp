@@ -31,18 +31,18 @@ Row count_of(const Counted& counted, const BakedCase& baked, const Bvh& bvh, uin
     for (size_t i = 0; i < points.size(); i += step, ++pixels)
         estimator.shade(points[i].triangle, points[i].barycentrics, camera.position, uint(i),
                         uvec2(points[i].pixel % side, points[i].pixel / side));
-    const Reads& reads = estimator.reads;
+    const Reads& reads = estimator.counted;
     const double bytes = bytes_of_passes + reads.bytes() / double(pixels);
     Row row{{"scene", counted.scene},
             {"direct", counted.direct_in_photons ? "photons" : "exact"},
-            {"mode", name_of_mode(counted.gather.mode)},
+            {"mode", gather_mode(counted.gather.mode).name},
             {"k", counted.gather.neighbours},
             {"shadow_rays", counted.gather.shadow_rays},
-            {"surfaces", per_pixel(reads.surfaces, pixels)},
-            {"cells", per_pixel(reads.cells, pixels)},
-            {"photons_tested", per_pixel(reads.photons, pixels)},
-            {"boxes_tested", per_pixel(reads.nodes, pixels)},
-            {"triangles_tested", per_pixel(reads.triangles, pixels)},
+            {"surfaces", per_pixel(reads.of(Record::surface), pixels)},
+            {"cells", per_pixel(reads.of(Record::cell), pixels)},
+            {"photons_tested", per_pixel(reads.of(Record::photon), pixels)},
+            {"boxes_tested", per_pixel(reads.of(Record::box), pixels)},
+            {"triangles_tested", per_pixel(reads.of(Record::triangle), pixels)},
             {"bytes_per_pixel", bytes}};
     for (const auto& [name, count] : {std::pair("500x500", 500.0 * 500), std::pair("1920x1080", 1920.0 * 1080),
                                       std::pair("3840x2160", 3840.0 * 2160)})
@@ -71,7 +71,7 @@ std::vector<Table> measure_work(const Bench& bench) {
             const bool is_room = scene == "room";
             const BakedCase baked(is_room ? make_room({}) : load_gltf(bench.scenes / scene), bake, bench.folder);
             const Bvh bvh = direct_in_photons ? Bvh{} : build_bvh(baked.scene);
-            for (const GatherSettings& gather : {GatherSettings(), moving, smooth, paper})
+            for (const GatherSettings& gather : {GatherSettings{}, moving, smooth, paper})
                 table.rows.push_back(count_of({scene, is_room ? "" : "living", direct_in_photons, gather}, baked, bvh,
                                               500, bench.pick<size_t>(170, 17)));
         }

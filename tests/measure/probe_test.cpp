@@ -1,5 +1,5 @@
 // The probe against the path tracer: its 90 % interval holds the truth at 85 to 95 % of random points.
-#include "maps/probe.h"
+#include "measure/probe.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "maps/bake.h"
 #include "scene/gltf.h"
+#include "shaders/color.h"
 #include "trace/build_bvh.h"
 #include "trace/path_tracer.h"
 #include "trace/sampling.h"
@@ -26,14 +27,9 @@ struct Baked {
     PhotonMap map;
 };
 
-struct Place {
-    Hit hit;
-    vec3 viewer;
-};
-
 /// Places that someone in the room may point at: rays in all directions from where cameras stand and what they see.
-std::vector<Place> random_places(const Baked& b, size_t count) {
-    std::vector<Place> places;
+std::vector<SeenPlace> random_places(const Baked& b, size_t count) {
+    std::vector<SeenPlace> places;
     Rng rng(3, 0, 0);
     vec3 eye = b.scene.cameras[0].position;
     while (places.size() < count) {
@@ -58,7 +54,7 @@ Truth traced(const PathTracer& tracer, const Measurement& m, uint64_t seed, int 
     for (int i = 0; i < samples; ++i) {
         Rng rng(seed, 9, uint64_t(i));
         const vec3 e = tracer.irradiance(m.position + m.normal * 1e-5f, m.normal, rng);
-        const double lux = 0.2126 * double(e.x) + 0.7152 * double(e.y) + 0.0722 * double(e.z);
+        const double lux = precise_luminance(e);
         sum += lux, squares += lux * lux;
     }
     const double mean = sum / samples;
@@ -69,10 +65,11 @@ Truth traced(const PathTracer& tracer, const Measurement& m, uint64_t seed, int 
 double coverage(const Baked& b, int samples) {
     const std::vector<vec3> weights = lamp_powers(b.scene, {});
     const PathTracer tracer(b.scene, b.caster, weights);
-    const std::vector<Place> places = random_places(b, 200);
+    const std::vector<SeenPlace> places = random_places(b, 200);
+    const Probe probe(b.scene, b.caster, b.map, b.bvh);
     std::vector<int> holds(places.size());
     parallel_for(places.size(), [&](size_t i) {
-        const Measurement m = measure(b.scene, b.caster, b.map, b.bvh, weights, places[i].hit, places[i].viewer);
+        const Measurement m = probe.measure(weights, places[i]);
         const Truth truth = traced(tracer, m, i + 1, samples);
         const double half = std::hypot(double(m.half_width_lux), 1.645 * truth.standard_error);
         holds[i] = std::abs(double(m.lux) - truth.lux) <= half;
@@ -99,16 +96,17 @@ TEST(Probe, HoldsThePathTracersIlluminanceAsOftenAsItSaysInTheApartment) {
 
 TEST(Probe, SharesAddUpToTheWholeAndFollowTheirLamps) {
     const Baked b("apartment.glb", 50'000);
-    const Place place = random_places(b, 5).back();
-    std::vector<vec3> weights = lamp_powers(b.scene, {});
-    const Measurement all = measure(b.scene, b.caster, b.map, b.bvh, weights, place.hit, place.viewer);
+    const SeenPlace place = random_places(b, 5).back();
+    std::vector<vec3> powers = lamp_powers(b.scene, {});
+    const Probe probe(b.scene, b.caster, b.map, b.bvh);
+    const Measurement all = probe.measure(powers, place);
     float sum = 0;
     for (const LampShare& share : all.lamps) sum += share.lux;
     EXPECT_NEAR(sum, all.lux, 1e-4f * all.lux);
     for (size_t lamp = 0; lamp < weights.size(); ++lamp) {
         std::vector<vec3> one(weights.size(), vec3(0));
         one[lamp] = weights[lamp];
-        const Measurement alone = measure(b.scene, b.caster, b.map, b.bvh, one, place.hit, place.viewer);
+        const Measurement alone = probe.measure(one, place);
         EXPECT_NEAR(alone.lux, all.lamps[lamp].lux, 1e-4f * all.lux) << b.scene.light_names[lamp];
     }
 }

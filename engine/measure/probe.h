@@ -2,9 +2,13 @@
 // same photons. More careful and slower than a pixel: all lamps' direct light by many rays, reflected light by the
 // smooth estimate at two bandwidths, whose difference tells of its bias.
 #pragma once
+#include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
-#include "maps/estimate.h"
+#include "maps/photon_map.h"
+#include "scene/bvh.h"
 #include "trace/ray_caster.h"
 
 namespace lw {
@@ -29,18 +33,28 @@ struct Measurement {
 /// What a view ray along unit `direction` meets, glass and holes looked through as the picture does.
 std::optional<Hit> seen_from(const Scene& scene, const RayCaster& caster, vec3 origin, vec3 direction);
 
-/// Measures where `hit` lies, on the side of `viewer`. `powers`: RGB power of each lamp (lamp_powers()).
-Measurement measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
-                    const std::vector<vec3>& powers, const Hit& hit, vec3 viewer);
-
 /// A point of a surface and from where it is looked at.
 struct SeenPlace {
     Hit hit;
     vec3 viewer;
 };
 
-/// The same for many places at once.
-std::vector<Measurement> measure(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh,
-                                 const std::vector<vec3>& powers, std::span<const SeenPlace> places);
+/// The meter of one scene and map: made once, it reads at any powers of the lamps. Thread-safe.
+class Probe {
+  public:
+    /// All four must outlive it. Finds which lamps each cell of the map sees, which takes as long as some readings.
+    Probe(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh);
+    ~Probe();
+
+    /// Measures where a hit lies, on the side of its viewer. `powers`: RGB power of each lamp (lamp_powers()).
+    Measurement measure(const std::vector<vec3>& powers, const SeenPlace& place) const;
+    /// The same for many places at once.
+    std::vector<Measurement> measure(const std::vector<vec3>& powers, std::span<const SeenPlace> places) const;
+
+    struct Parts;  // what readings have in common
+
+  private:
+    std::unique_ptr<const Parts> parts_;
+};
 
 }  // namespace lw

@@ -1,0 +1,138 @@
+// Where a point lies in the maps, how many photons are around it and how much of a kernel there lies on surface. One
+// text for C++ and GLSL. The including scope provides the functions grid_at, is_cut (false for no_map), cell_start,
+// node_coverage and the constants neighbours, has_coverage. Needs photon_map.h.
+
+ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
+    return ivec2(int(floor(local.x / grid.cell_size)), int(floor(local.y / grid.cell_size)));
+}
+
+/// First and last reference of the cells [x0, x1] of row y, clipped to the grid.
+uvec2 row_span(SurfaceGrid grid, int x0, int x1, int y) LW_MEMBER {
+    if (y < 0 || y >= int(grid.rows) || x1 < 0 || x0 >= int(grid.columns)) return uvec2(0u, 0u);
+    uint row = grid.first_cell + uint(y) * grid.columns;
+    return uvec2(cell_start(row + uint(max(x0, 0))), cell_start(row + uint(min(x1, int(grid.columns) - 1)) + 1u));
+}
+
+/// True when the window of `ring` cells around `cell` covers the grid.
+bool covers_grid(SurfaceGrid grid, ivec2 cell, int ring) LW_MEMBER {
+    return cell.x - ring <= 0 && cell.y - ring <= 0 && cell.x + ring >= int(grid.columns) - 1 &&
+           cell.y + ring >= int(grid.rows) - 1;
+}
+
+/// The first ring of cells around `cell` that meets the grid. Few photons make small grids of small cells: rings that
+/// are empty for certain cost nothing.
+int first_ring(SurfaceGrid grid, ivec2 cell) LW_MEMBER {
+    ivec2 beyond = max(-cell, cell - ivec2(int(grid.columns) - 1, int(grid.rows) - 1));
+    return max(max(beyond.x, beyond.y), 0);
+}
+
+/// Radius that is expected to hold k photons, from the counts of a growing window of cells.
+float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
+    ivec2 cell = cell_of(local, grid);
+    float wanted = 1.25f * float(neighbours);
+    int last_ring = int(grid.radius / grid.cell_size) + 1;
+    float count = 0.0f;
+    float area = 0.0f;
+    int ring = 0;
+    for (; ring <= last_ring; ++ring) {
+        count = 0.0f;
+        int x0 = max(cell.x - ring, 0);
+        int x1 = min(cell.x + ring, int(grid.columns) - 1);
+        int y0 = max(cell.y - ring, 0);
+        int y1 = min(cell.y + ring, int(grid.rows) - 1);
+        for (int y = y0; y <= y1; ++y) {
+            uvec2 span = row_span(grid, x0, x1, y);
+            count += float(span.y - span.x);
+        }
+        area = float(max(x1 - x0 + 1, 1)) * float(max(y1 - y0 + 1, 1)) * grid.cell_size * grid.cell_size;
+        if (count >= wanted || covers_grid(grid, cell, ring)) break;
+    }
+    if (count < wanted) return grid.radius;  // the grid ends where its photons do: their area says nothing
+    return clamp(sqrt(float(neighbours) * area / (lw_pi * count)), min(0.5f * grid.cell_size, grid.radius),
+                 grid.radius);
+}
+
+/// Radius that holds caustic_neighbours photons, from the counts of a growing window of cells. Few photons make small
+/// grids of small cells: the window starts where it meets the grid and grows in proportion.
+float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
+    ivec2 cell = cell_of(local, grid);
+    ivec2 last = ivec2(int(grid.columns) - 1, int(grid.rows) - 1);
+    int ring = first_ring(grid, cell);
+    int last_ring = int(grid.radius / grid.cell_size) + 1;
+    if (ring > last_ring) return grid.radius;
+    float count = 0.0f;
+    float area = 0.0f;
+    for (;;) {
+        int x0 = max(cell.x - ring, 0);
+        int x1 = min(cell.x + ring, last.x);
+        int y0 = max(cell.y - ring, 0);
+        int y1 = min(cell.y + ring, last.y);
+        count = 0.0f;
+        for (int y = y0; y <= y1; ++y) {
+            uvec2 span = row_span(grid, x0, x1, y);
+            count += float(span.y - span.x);
+        }
+        area = float(x1 - x0 + 1) * float(y1 - y0 + 1) * grid.cell_size * grid.cell_size;
+        if (count >= 1.25f * caustic_neighbours || ring > last_ring || covers_grid(grid, cell, ring)) break;
+        ring += max(ring / 8, 1);
+    }
+    if (count < 1.0f) return grid.radius;
+    return clamp(sqrt(caustic_neighbours * area / (lw_pi * count)), 0.02f * min(grid.cell_size, grid.radius),
+                 grid.radius);
+}
+
+/// The node below and left of a point, and in `f` where the point lies in the cell it begins.
+uint cell_node(SurfaceLattice lattice, vec3 local, LW_INOUT(vec2) f) LW_MEMBER {
+    vec2 last = vec2(float(lattice.columns - 1u), float(lattice.rows - 1u));
+    vec2 at = clamp((vec2(local.x, local.y) - lattice.low) / lattice.step, vec2(0.0f), last);
+    vec2 base = min(floor(at), last - 1.0f);
+    f = at - base;
+    return lattice.first_node + uint(base.y) * lattice.columns + uint(base.x);
+}
+
+/// Where a point lies on a map.
+struct MapPlace {
+    uint map;  // or no_map, then nothing else holds
+    SurfaceGrid grid;
+    vec3 local;  // u, v, h in the frame of the grid, m
+    uint cell;   // the lower left node of the cell of the lattice
+    vec2 f;      // where in the cell
+};
+
+/// The map of a point of a surface whose map may be cut.
+uint map_at(uint map, vec3 position) LW_MEMBER {
+    while (is_cut(map)) map = behind_cut(grid_at(map), position);
+    return map;
+}
+
+MapPlace place_on(uint map, vec3 position) LW_MEMBER {
+    MapPlace at;
+    at.map = map_at(map, position);
+    at.grid = grid_at(at.map == no_map ? 0u : at.map);  // anything, but there
+    at.local = position_in_grid(at.grid, position);
+    at.cell = cell_node(at.grid.lattice, at.local, at.f);
+    return at;
+}
+
+/// Coverage of the kernel of `radius` around a place, between the lattice's nodes.
+float coverage_at(MapPlace at, float radius) LW_MEMBER {
+    float fraction = radius / at.grid.radius;
+    uint node = at.cell;
+    uint above = node + at.grid.lattice.columns;
+    float low = mix(unpack_coverage(node_coverage(node), fraction), unpack_coverage(node_coverage(node + 1u), fraction),
+                    at.f.x);
+    float high = mix(unpack_coverage(node_coverage(above), fraction),
+                     unpack_coverage(node_coverage(above + 1u), fraction), at.f.x);
+    return max(mix(low, high, at.f.y), min_coverage);
+}
+
+/// The part of the kernel of `radius` around a place that lies on surface light can reach; 1 where the map does not
+/// know.
+float covered_part(MapPlace at, float radius) LW_MEMBER { return has_coverage ? coverage_at(at, radius) : 1.0f; }
+
+/// The same for a kernel on the grid of caustics of that surface: kernels much smaller than the coverage's least one
+/// hardly reach a border.
+float caustic_coverage(MapPlace at, SurfaceGrid caustics, float radius) LW_MEMBER {
+    if (!has_coverage || at.map == no_map) return 1.0f;
+    return mix(1.0f, coverage_at(at, radius), min(4.0f * radius / caustics.radius, 1.0f));
+}
