@@ -8,6 +8,8 @@
 
 #include "app/measuring/metering.h"
 #include "app/panels/panels.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 
 namespace lw {
 namespace {
@@ -34,7 +36,7 @@ void toggle_flying(Session& s) {
         tell(s, "flying: Space and Ctrl go up and down", 2);
         return;
     }
-    s.walker = land(s.walker, s.body, s.world.around);
+    s.walker = land(s.walker, s.body, s.world.collision);
     tell(s, s.walker.flying ? "no floor below: flying on" : "walking", 2);
 }
 
@@ -50,7 +52,7 @@ void change_exposure(Session& s, float by) {
 
 void dim_selected(Session& s, float by) {
     if (s.lighting.selected < 0) return;
-    float& dimmer = s.lighting.board[size_t(s.lighting.selected)].dimmer;
+    float& dimmer = s.lighting.lamps[size_t(s.lighting.selected)].dimmer;
     dimmer = std::clamp(dimmer + by, 0.0f, 2.0f);
 }
 
@@ -63,7 +65,7 @@ void change_place(Session& s, int by) {
 
 void apply_lamp_key(Session& s, int key) {
     if (s.lighting.selected < 0) return;
-    LampState& lamp = s.lighting.board[size_t(s.lighting.selected)];
+    LampState& lamp = s.lighting.lamps[size_t(s.lighting.selected)];
     if (key == GLFW_KEY_O) lamp.on = !lamp.on;
     if (key == GLFW_KEY_I) lamp.solo = !lamp.solo;
 }
@@ -143,10 +145,10 @@ void apply_click(Session& s, Window& window, const Click& click, const Probe* pr
 
 }  // namespace
 
-WalkInput walk_input(const Window& window, const Events& events, Taken taken, float seconds) {
+WalkInput walk_input(const Window& window, const Events& events, PanelCapture capture, float seconds) {
     WalkInput input;
     input.turn = -vec2(events.mouse_x, events.mouse_y) * radians_per_unit;
-    if (!taken.keyboard) {
+    if (!capture.keyboard) {
         input.move.x = held(window, {GLFW_KEY_D, GLFW_KEY_RIGHT}) - held(window, {GLFW_KEY_A, GLFW_KEY_LEFT});
         input.move.y = held(window, {GLFW_KEY_SPACE}) - held(window, {GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL});
         input.move.z = held(window, {GLFW_KEY_W, GLFW_KEY_UP}) - held(window, {GLFW_KEY_S, GLFW_KEY_DOWN});
@@ -157,13 +159,13 @@ WalkInput walk_input(const Window& window, const Events& events, Taken taken, fl
     return {input.move + pad.move, input.turn + pad.turn, input.fast || pad.fast};
 }
 
-void apply_actions(Session& s, Window& window, const Events& events, Taken taken, const Probe* probe) {
+void apply_actions(Session& s, Window& window, const Events& events, PanelCapture capture, const Probe* probe) {
     const vec2 size(float(events.size.width), float(events.size.height));
     for (const auto& action : events.actions) {
         if (const auto* press = std::get_if<KeyPress>(&action)) {
-            if (!taken.keyboard || press->key == GLFW_KEY_F1 || press->key == GLFW_KEY_F11)
+            if (!capture.keyboard || press->key == GLFW_KEY_F1 || press->key == GLFW_KEY_F11)
                 apply_key(s, window, *press);
-        } else if (taken.mouse) {
+        } else if (capture.mouse) {
             continue;
         } else if (const auto* click = std::get_if<Click>(&action)) {
             apply_click(s, window, *click, probe, size);

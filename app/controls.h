@@ -6,16 +6,16 @@
 namespace lw {
 
 /// True members: the panels use the mouse or the keyboard now, so the walk must ignore it.
-struct Taken {
+struct PanelCapture {
     bool mouse = false, keyboard = false;
 };
 
 /// The movement that held keys, the mouse and the gamepad's sticks ask for. `seconds`: since the last frame.
-WalkInput walk_input(const Window& window, const Events& events, Taken taken, float seconds);
+WalkInput walk_input(const Window& window, const Events& events, PanelCapture capture, float seconds);
 
 /// Applies pressed keys, clicks and turns of the wheel to session and window, in the order they came. `probe` pins
 /// what it reads; null before there is a map.
-void apply_actions(Session& session, Window& window, const Events& events, Taken taken, const Probe* probe);
+void apply_actions(Session& session, Window& window, const Events& events, PanelCapture capture, const Probe* probe);
 
 /// The movement that a gamepad asks for: the left stick walks, the right one looks, A and B move up and down, a bumper
 /// is faster.

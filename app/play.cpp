@@ -11,7 +11,7 @@
 #include "file/map_file.h"
 #include "image/light_check.h"
 #include "image/png.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
 
 namespace lw {
 namespace {
@@ -113,15 +113,15 @@ std::filesystem::path frame_name(const std::filesystem::path& folder, size_t i) 
 }  // namespace
 
 void play(const PlaySettings& settings) {
-    const LampBook book = load_lamp_book(default_ambiances_path(settings.scene));
-    const World world(settings.scene, photometry_texts(book, settings.scene, settings.photometry));
+    const LampPresets presets = load_lamp_presets(default_ambiances_path(settings.scene));
+    const World world(settings.scene, presets, settings.photometry);
     const Path path = load_path(settings.path);
     const std::vector<vec3> factors = chosen_factors(world.scene, settings.ambiance, {});
     const auto map = std::make_shared<const PhotonMap>(load_photon_map(settings.map, world.scene));
     if (!settings.frames.empty()) prepare_folder(settings.frames);
     if (!settings.timings.empty()) {
         std::vector<std::filesystem::path> inputs = world.scene.files;
-        inputs.insert(inputs.end(), {settings.map, settings.path, default_ambiances_path(settings.scene)});
+        inputs.insert(inputs.end(), {settings.map, settings.path});
         check_can_create(settings.timings, inputs);
     }
     const Device device(settings.device);
@@ -146,12 +146,12 @@ void play(const PlaySettings& settings) {
         return times;
     };
     make(0);  // pipelines are made and the exposure is found before the clock runs
-    Divisor automatic;
-    if (settings.divisor == 0) divisor = automatic.next(0, make(0).first, true);
+    DynamicResolution resolution;
+    if (settings.divisor == 0) divisor = resolution.next(0, make(0).first, true);
     for (size_t i = 0; i < count; ++i) {
         adapt_to(viewing, renderer.readback(0, view_shaded), i == 0 ? 10.0f : float(1 / path.frames_per_second));
         frames.push_back(make(i));
-        if (settings.divisor == 0) divisor = automatic.next(0, frames.back().first, false);
+        if (settings.divisor == 0) divisor = resolution.next(0, frames.back().first, false);
         if (settings.frames.empty()) continue;
         check_is_light(renderer.read_values());
         write_png(frame_name(settings.frames, i), read_screen(device, renderer, settings.size));

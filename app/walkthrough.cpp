@@ -5,10 +5,12 @@
 #include "app/baking.h"
 #include "app/measuring/field_reader.h"
 #include "app/picture/viewer.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 #include "base/error.h"
 #include "gpu/commands.h"
 #include "scene/camera.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
 
 namespace lw {
 namespace {
@@ -22,10 +24,10 @@ void refuse_validation_messages(const Device& device) {
 }
 
 /// Takes a finished map from the bake, if there is one, and shows its errors to the user.
-void follow_baking(Baking& baking, Session& session, SharedMap& map, Viewer& show) {
+void follow_baking(Baking& baking, Session& session, SharedMap& map, Viewer& viewer) {
     if (std::optional<PhotonMap> ready = baking.take()) {
         map = std::make_shared<const PhotonMap>(std::move(*ready));
-        show.set_map(map);
+        viewer.set_map(map);
         tell(session, std::to_string(map->stored_photons) + " photons", 3);
     }
     const std::string message = baking.take_message();
@@ -57,14 +59,14 @@ struct Work {
 
 /// Shows frames on one device until the window closes or the scene must be loaded again.
 void run(Window& window, const WalkthroughSettings& settings, Session& session, Work& work) {
-    Viewer show(window, session, settings.device, settings.vsync);
-    if (work.map) show.set_map(work.map);
+    Viewer viewer(window, session, settings.device, settings.vsync);
+    if (work.map) viewer.set_map(work.map);
     while (!window.closes() && !session.reload) {
-        if (work.baking) follow_baking(*work.baking, session, work.map, show);
+        if (work.baking) follow_baking(*work.baking, session, work.map, viewer);
         follow_fields(work.fields, session, work.map);
-        show.frame(work.progress());
+        viewer.frame(work.progress());
     }
-    refuse_validation_messages(show.device());
+    refuse_validation_messages(viewer.device());
 }
 
 /// Shows frames until the window closes or the scene must be loaded again. Starts a new device when one is lost.
@@ -88,32 +90,32 @@ void run_on_devices(Window& window, const WalkthroughSettings& settings, Session
 
 void set_start(const WalkthroughSettings& settings, Session& session) {
     const Camera& camera = find_camera(session.world.scene, settings.camera);
-    session.walker = walker_at(camera, session.body, session.world.around);
+    session.walker = walker_at(camera, session.body, session.world.collision);
     session.yfov = camera.yfov;
     if (settings.ambiance.empty()) return;
     chosen_factors(session.world.scene, settings.ambiance, {});  // refuses unknown ones
     std::vector<std::string> missing;
-    session.lighting.board =
-        with_ambiance(session.world.scene, session.lighting.book.ambiances.at(settings.ambiance), missing);
+    session.lighting.lamps =
+        with_ambiance(session.world.scene, session.lighting.presets.ambiances.at(settings.ambiance), missing);
     session.lighting.current = settings.ambiance;
 }
 
-LampBook book_beside(const std::filesystem::path& scene) {
+LampPresets presets_beside(const std::filesystem::path& scene) {
     try {
-        return load_lamp_book(default_ambiances_path(scene));
+        return load_lamp_presets(default_ambiances_path(scene));
     } catch (const Error&) {
         return {};  // the session tells why
     }
 }
 
-/// Loads the scene with the photometric files of its book. When one of them is wrong, the user is told and the scene is
-/// loaded without them.
-std::unique_ptr<World> load_world(const WalkthroughSettings& settings, const LampBook& book) {
+/// Loads the scene with the photometric files of its presets. When one of them is wrong, the user is told and the scene
+/// is loaded without them.
+std::unique_ptr<World> load_world(const WalkthroughSettings& settings, const LampPresets& presets) {
     try {
-        return std::make_unique<World>(settings.scene, photometry_texts(book, settings.scene, settings.photometry));
+        return std::make_unique<World>(settings.scene, presets, settings.photometry);
     } catch (const Error& failure) {
-        if (book.photometry.empty()) throw;
-        auto world = std::make_unique<World>(settings.scene, settings.photometry);
+        if (presets.photometry.empty()) throw;
+        auto world = std::make_unique<World>(settings.scene, LampPresets(), settings.photometry);
         std::fprintf(stderr, "warning: %s: going on without the files of the lamps\n", failure.what());
         return world;
     }
@@ -140,8 +142,8 @@ void walk_in_world(Window& window, const WalkthroughSettings& settings, Session&
 }  // namespace
 
 void walk_in_window(const WalkthroughSettings& settings) {
-    std::unique_ptr<World> world = load_world(settings, book_beside(settings.scene));
-    auto session = std::make_unique<Session>(*world, settings.output);
+    std::unique_ptr<World> world = load_world(settings, presets_beside(settings.scene));
+    auto session = std::make_unique<Session>(open_session(*world, settings.output));
     set_start(settings, *session);
     if (device_names().empty())
         throw Error("Vulkan: no device found (mesa-vulkan-drivers has one that runs on the CPU)");
@@ -149,7 +151,7 @@ void walk_in_window(const WalkthroughSettings& settings) {
     for (;;) {
         walk_in_world(window, settings, *session);
         if (window.closes()) return;
-        std::unique_ptr<World> next = load_world(settings, session->lighting.book);
+        std::unique_ptr<World> next = load_world(settings, session->lighting.presets);
         session = std::make_unique<Session>(*next, *session);
         world = std::move(next);
     }

@@ -2,7 +2,8 @@
 // through glass and blends, and by way of mirrors, to a surface where light is gathered. Sampling follows
 // trace/path_tracer: visible normals (Heitz 2018), one Fresnel factor for both sides, absorption in volumes, blends
 // passed at random. One text for C++ and GLSL; needs color.h, followed.h, shade.glsl, rays.glsl and the constants
-// has_followed, looks_through, followed_roughness. All loops are bounded, because some devices silently end long ones.
+// has_followed, follows_through, followed_roughness. All loops are bounded, because some devices silently end long
+// ones.
 
 /// A ray of a path, with the weight of the light that it will meet.
 struct ViewRay {
@@ -195,7 +196,7 @@ ViewRay ray_behind(Seen seen, PathNumbers numbers) LW_MEMBER {
 ViewRay first_ray(Seen seen, uint branch, PathNumbers numbers) LW_MEMBER {
     ViewRay ray = no_ray();
     if (branch == branch_through) {
-        if (looks_through) ray = ray_behind(seen, numbers);
+        if (follows_through) ray = ray_behind(seen, numbers);
         return ray;
     }
     ray = reflected_ray(seen, vec3(0.0f), lobe_numbers(numbers, 0u));
@@ -206,18 +207,18 @@ ViewRay first_ray(Seen seen, uint branch, PathNumbers numbers) LW_MEMBER {
 /// True when a path of this branch goes on from the surface that the pixel shows.
 bool goes_on(Seen seen, uint branch) LW_MEMBER {
     if (branch == branch_reflected) return reflects_narrowly(seen.surface);
-    return looks_through && (is_glass(seen.surface) || (has_alpha && opacity_at(seen.triangle, seen.surface) < 1.0f));
+    return follows_through && (is_glass(seen.surface) || (has_alpha && opacity_at(seen.triangle, seen.surface) < 1.0f));
 }
 
 /// The opacity of a surface: the weight of the light that it shows itself, where paths follow what is behind it; else
 /// 1.
 float shown_part(Seen seen) LW_MEMBER {
-    return has_alpha && looks_through ? opacity_at(seen.triangle, seen.surface) : 1.0f;
+    return has_alpha && follows_through ? opacity_at(seen.triangle, seen.surface) : 1.0f;
 }
 
 /// True when the pixel reports the illuminance of the surface behind this one.
-bool is_looked_through(Seen seen) LW_MEMBER {
-    if (!looks_through) return false;
+bool is_followed_through(Seen seen) LW_MEMBER {
+    if (!follows_through) return false;
     return (seen.surface.transmission > 0.5f && seen.surface.metallic < 0.5f) || shown_part(seen) < 0.5f;
 }
 
@@ -359,7 +360,7 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
         for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
             add_rays(far, pair, points_at_end(seed, following), shown);
         light.radiance += at.weight * shown.radiance;
-        if (depth == 0u && branch == branch_through && is_looked_through(seen)) light.irradiance += shown.irradiance;
+        if (depth == 0u && branch == branch_through && is_followed_through(seen)) light.irradiance += shown.irradiance;
         if ((at.flags & followed_goes_on) == 0u) return;
         following.depth = depth + 1u;
         numbers = path_numbers(pixel, following, 0u);
@@ -378,7 +379,7 @@ Gathered shade(uint triangle, vec2 barycentrics, vec3 eye, uint seed, uvec2 pixe
     for (uint pair = 0u; has_direct && pair < ray_pairs(light_count); ++pair)
         add_rays(seen, pair, first_points(seed), light);
     light.radiance *= shown_part(seen);
-    if (is_looked_through(seen)) light.irradiance = vec3(0.0f);
+    if (is_followed_through(seen)) light.irradiance = vec3(0.0f);
     for (uint branch = 0u; has_followed && branch < branch_count; ++branch)
         if (goes_on(seen, branch)) add_followed(seen, branch, pixel, seed, light);
     return light;

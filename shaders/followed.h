@@ -35,7 +35,7 @@ struct Followed {
 };
 LW_CONST uint followed_leaves_lobe = 1u;  // estimates leave the specular lobe out: the path might have gone on along it
 LW_CONST uint followed_goes_on = 2u;      // another path goes on along the lobe
-LW_CONST uint followed_is_looked_at = 4u;  // the pixel reports the illuminance of this place
+LW_CONST uint followed_gives_illuminance = 4u;  // the pixel reports the illuminance of this place
 
 LW_CONST uint max_paths = 1024u;  // most paths of a pixel in one frame
 

@@ -39,10 +39,10 @@ struct RayPixels {
 /// instance several times.
 LW_CONST uint cluster_triangles = 64u;
 
-/// The present power of a lamp: its photons are multiplied by `weight`, the glow of its surface by `factor`. Two
+/// The present power of a lamp: its photons are multiplied by `power`, the glow of its surface by `factor`. Two
 /// texels.
 struct LampPower {
-    vec4 weight;  // RGB
+    vec4 power;   // RGB
     vec4 factor;  // RGB
 };
 

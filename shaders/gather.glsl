@@ -1,6 +1,6 @@
 // Photon density estimation on the 2D grid of one patch (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
 // Real-Time Walkthrough Rendering, 2012). One text for C++ and GLSL. The including scope provides the functions
-// photon_place, photon_flux, photon_direction, light_power, light_at, cell_light and the constants has_caustics,
+// photon_place, photon_flux, photon_direction, lamp_power, light_at, cell_light and the constants has_caustics,
 // gather_mode, neighbours, heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions,
 // has_coverage, has_followed. Needs map_lookup.glsl and bsdf.glsl.
 
@@ -27,7 +27,7 @@ bool leaves_lobe_out(Surface s) LW_MEMBER { return has_followed && (s.flags & lo
 /// which add_up() applies.
 void add_photon(uint i, PhotonPlace place, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
-    vec3 flux = unpack_rgb9e5(photon_flux(i)) * light_power(light_of(place)) * kernel;
+    vec3 flux = unpack_rgb9e5(photon_flux(i)) * lamp_power(light_of(place)) * kernel;
     sum.irradiance += flux;
     if (!has_directions) return;
     bool lobe_left_out = leaves_lobe_out(s) && !is_unseen_by_rays(s, place);

@@ -124,7 +124,7 @@ uint cell_word(uint word) { return texelFetch(words_of_cells, int(word)).x; }
 
 uvec4 shadow_mask(uint i) { return texelFetch(shadow_masks, int(i)); }
 
-vec3 light_power(uint light) { return texelFetch(lamp_powers, int(2u * light)).xyz; }
+vec3 lamp_power(uint light) { return texelFetch(lamp_powers, int(2u * light)).xyz; }
 
 vec3 lamp_factor(uint light) { return texelFetch(lamp_powers, int(2u * light + 1u)).xyz; }
 
@@ -190,11 +190,12 @@ void follow_pixel(uint pixel) {
     PathNumbers numbers = path_numbers(place_of(pixel), following, frame.sample_index);
     ViewRay ray = no_ray();
     Followed before = followed[pixel];
-    uint looked_at = 0u;
+    uint illuminance_flag = 0u;
     if (following.depth == 0u) {
         Seen seen = seen_by(pixel);
         ray = first_ray(seen, following.branch, numbers);
-        if (following.branch == branch_through && is_looked_through(seen)) looked_at = followed_is_looked_at;
+        if (following.branch == branch_through && is_followed_through(seen))
+            illuminance_flag = followed_gives_illuminance;
     } else {
         if (before.triangle == no_triangle || (before.flags & followed_goes_on) == 0u) {
             followed[pixel].triangle = no_triangle;
@@ -204,7 +205,7 @@ void follow_pixel(uint pixel) {
         ray.weight *= before.weight;
     }
     PathEnd end = follow(ray, numbers, following.depth + 1u == max_lobes);
-    end.at.flags |= looked_at;
+    end.at.flags |= illuminance_flag;
     followed[pixel] = end.at;
     if (luminance(end.glow) > 0.0f)
         radiance_illuminance[pixel].xyz += end.glow * frame.sample_weight / float(following.paths);
@@ -230,7 +231,7 @@ void gather_followed(uint pixel) {
         light = estimate_at(seen);
         list_for_light(pixel, seen);
     }
-    float lux = (at.flags & followed_is_looked_at) != 0u ? luminance(light.irradiance) : 0.0f;
+    float lux = (at.flags & followed_gives_illuminance) != 0u ? luminance(light.irradiance) : 0.0f;
     radiance_illuminance[pixel] +=
         vec4(at.weight * light.radiance, lux) * (frame.sample_weight / float(following.paths));
 }
@@ -250,7 +251,7 @@ Gathered gather_seen(uint pixel, Seen seen) {
             if (goes_on(seen, branch)) list_pixel(pixel, ray_pairs(light_count) + branch);
     }
     light.radiance *= shown_part(seen);
-    if (is_looked_through(seen)) light.irradiance = vec3(0.0f);
+    if (is_followed_through(seen)) light.irradiance = vec3(0.0f);
     return light;
 }
 

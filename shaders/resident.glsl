@@ -9,7 +9,7 @@ layout(set = 0, binding = binding_uv1) uniform textureBuffer uv1;
 layout(set = 0, binding = binding_colors) uniform textureBuffer colors;
 layout(set = 0, binding = binding_tangents) uniform textureBuffer tangents;
 layout(set = 0, binding = binding_texels) uniform textureBuffer texels;
-layout(set = 0, binding = binding_materials) uniform utextureBuffer looks;
+layout(set = 0, binding = binding_materials) uniform utextureBuffer material_records;
 layout(set = 0, binding = binding_textures) uniform utextureBuffer texture_records;
 
 vec3 corner_position(uint triangle, uint c) { return texelFetch(corners, int(6u * triangle + 2u * c)).xyz; }
@@ -31,17 +31,17 @@ Texture texture_at(int i) {
 }
 
 /// Slot `i` of a material: two texels' words, from the second word of the first on.
-TextureSlot texture_slot(int look, int i) {
-    uvec4 a = texelFetch(looks, look + 5 + 2 * i);
-    uvec4 b = texelFetch(looks, look + 6 + 2 * i);
-    uvec4 c = texelFetch(looks, look + 7 + 2 * i);
+TextureSlot texture_slot(int first, int i) {
+    uvec4 a = texelFetch(material_records, first + 5 + 2 * i);
+    uvec4 b = texelFetch(material_records, first + 6 + 2 * i);
+    uvec4 c = texelFetch(material_records, first + 7 + 2 * i);
     return TextureSlot(int(a.y), a.z, uintBitsToFloat(uvec3(a.w, b.xy)), uintBitsToFloat(uvec3(b.zw, c.x)));
 }
 
 Material material_of(uint triangle) {
-    int look = int(material_texels * texelFetch(triangles, int(triangle)).z);
+    int first = int(material_texels * texelFetch(triangles, int(triangle)).z);
     uvec4 t[6];
-    for (int k = 0; k < 6; ++k) t[k] = texelFetch(looks, look + k);
+    for (int k = 0; k < 6; ++k) t[k] = texelFetch(material_records, first + k);
     Material m;
     m.base_color = uintBitsToFloat(t[0].xyz);
     m.alpha = uintBitsToFloat(t[0].w);
@@ -57,11 +57,11 @@ Material material_of(uint triangle) {
     m.flags = t[4].y;
     m.absorption = uintBitsToFloat(uvec3(t[4].zw, t[5].x));
     if (!has_textures) return m;
-    m.base_color_texture = texture_slot(look, 0);
-    m.metallic_roughness_texture = texture_slot(look, 1);
-    m.normal_texture = texture_slot(look, 2);
-    m.emissive_texture = texture_slot(look, 3);
-    m.transmission_texture = texture_slot(look, 4);
+    m.base_color_texture = texture_slot(first, 0);
+    m.metallic_roughness_texture = texture_slot(first, 1);
+    m.normal_texture = texture_slot(first, 2);
+    m.emissive_texture = texture_slot(first, 3);
+    m.transmission_texture = texture_slot(first, 4);
     return m;
 }
 

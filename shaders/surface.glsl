@@ -51,6 +51,49 @@ vec4 sample_texture(TextureSlot slot, vec2 first_uv, vec2 second_uv) LW_MEMBER {
     return mix(top, bottom, f.y);
 }
 
+/// The shading normal bent by the normal map of a surface at these weights of the three vertices.
+vec3 mapped_normal(uint triangle, vec3 b, Material m, vec4 texel, vec3 normal) LW_MEMBER {
+    vec3 local =
+        vec3((texel.x * 2.0f - 1.0f) * m.normal_scale, (texel.y * 2.0f - 1.0f) * m.normal_scale, texel.z * 2.0f - 1.0f);
+    vec4 tangent4 =
+        b.x * corner_tangent(triangle, 0u) + b.y * corner_tangent(triangle, 1u) + b.z * corner_tangent(triangle, 2u);
+    vec3 tangent = vec3(tangent4.x, tangent4.y, tangent4.z);
+    tangent = tangent - normal * dot(normal, tangent);
+    float tangent_length = length(tangent);
+    if (tangent_length <= 1e-6f) return normal;
+    tangent = tangent / tangent_length;
+    vec3 bitangent = cross(normal, tangent) * (tangent4.w < 0.0f ? -1.0f : 1.0f);
+    return normalize(local.x * tangent + local.y * bitangent + local.z * normal);
+}
+
+/// Multiplies what a surface got from its material by the material's textures, and bends its normal.
+void apply_textures(uint triangle, vec3 b, Material m, LW_INOUT(Surface) s) LW_MEMBER {
+    vec2 first_uv = vec2(0.0f);
+    vec2 second_uv = vec2(0.0f);
+    if (has_uv0)
+        first_uv = b.x * corner_uv0(triangle, 0u) + b.y * corner_uv0(triangle, 1u) + b.z * corner_uv0(triangle, 2u);
+    if (has_uv1)
+        second_uv = b.x * corner_uv1(triangle, 0u) + b.y * corner_uv1(triangle, 1u) + b.z * corner_uv1(triangle, 2u);
+    if (m.base_color_texture.texture >= 0) {
+        vec4 c = sample_texture(m.base_color_texture, first_uv, second_uv);
+        s.base_color *= vec3(c.x, c.y, c.z);
+        s.alpha *= c.w;
+    }
+    if (has_metallic_roughness_textures && m.metallic_roughness_texture.texture >= 0) {
+        vec4 c = sample_texture(m.metallic_roughness_texture, first_uv, second_uv);
+        s.roughness *= c.y;
+        s.metallic *= c.z;
+    }
+    if (has_emissive_textures && m.emissive_texture.texture >= 0) {
+        vec4 c = sample_texture(m.emissive_texture, first_uv, second_uv);
+        s.emissive *= vec3(c.x, c.y, c.z);
+    }
+    if (has_transmission_textures && m.transmission_texture.texture >= 0)
+        s.transmission *= sample_texture(m.transmission_texture, first_uv, second_uv).x;
+    if (has_tangents && m.normal_texture.texture >= 0)
+        s.normal = mapped_normal(triangle, b, m, sample_texture(m.normal_texture, first_uv, second_uv), s.normal);
+}
+
 /// barycentrics are the weights of the second and third vertex.
 Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
     float b0 = 1.0f - barycentrics.x - barycentrics.y;
@@ -87,45 +130,7 @@ Surface surface_at(uint triangle, vec2 barycentrics) LW_MEMBER {
         s.base_color *= vec3(c.x, c.y, c.z);
         s.alpha *= c.w;
     }
-    if (has_textures) {
-        vec2 first_uv = vec2(0.0f);
-        vec2 second_uv = vec2(0.0f);
-        if (has_uv0)
-            first_uv = b0 * corner_uv0(triangle, 0u) + b1 * corner_uv0(triangle, 1u) + b2 * corner_uv0(triangle, 2u);
-        if (has_uv1)
-            second_uv = b0 * corner_uv1(triangle, 0u) + b1 * corner_uv1(triangle, 1u) + b2 * corner_uv1(triangle, 2u);
-        if (m.base_color_texture.texture >= 0) {
-            vec4 c = sample_texture(m.base_color_texture, first_uv, second_uv);
-            s.base_color *= vec3(c.x, c.y, c.z);
-            s.alpha *= c.w;
-        }
-        if (has_metallic_roughness_textures && m.metallic_roughness_texture.texture >= 0) {
-            vec4 c = sample_texture(m.metallic_roughness_texture, first_uv, second_uv);
-            s.roughness *= c.y;
-            s.metallic *= c.z;
-        }
-        if (has_emissive_textures && m.emissive_texture.texture >= 0) {
-            vec4 c = sample_texture(m.emissive_texture, first_uv, second_uv);
-            s.emissive *= vec3(c.x, c.y, c.z);
-        }
-        if (has_transmission_textures && m.transmission_texture.texture >= 0)
-            s.transmission *= sample_texture(m.transmission_texture, first_uv, second_uv).x;
-        if (has_tangents && m.normal_texture.texture >= 0) {
-            vec4 c = sample_texture(m.normal_texture, first_uv, second_uv);
-            vec3 local =
-                vec3((c.x * 2.0f - 1.0f) * m.normal_scale, (c.y * 2.0f - 1.0f) * m.normal_scale, c.z * 2.0f - 1.0f);
-            vec4 tangent4 = b0 * corner_tangent(triangle, 0u) + b1 * corner_tangent(triangle, 1u) +
-                            b2 * corner_tangent(triangle, 2u);
-            vec3 tangent = vec3(tangent4.x, tangent4.y, tangent4.z);
-            tangent = tangent - s.normal * dot(s.normal, tangent);
-            float tangent_length = length(tangent);
-            if (tangent_length > 1e-6f) {
-                tangent = tangent / tangent_length;
-                vec3 bitangent = cross(s.normal, tangent) * (tangent4.w < 0.0f ? -1.0f : 1.0f);
-                s.normal = normalize(local.x * tangent + local.y * bitangent + local.z * s.normal);
-            }
-        }
-    }
+    if (has_textures) apply_textures(triangle, vec3(b0, b1, b2), m, s);
     if (dot(s.normal, s.geometric_normal) < 0.0f) s.normal = -s.normal;
     return s;
 }

@@ -13,8 +13,8 @@ layout(location = 1) flat in uint triangle;
 layout(location = 0) out uvec4 visible;  // triangle, barycentrics and depth (m along -Z) as float bits
 
 void main() {
-    if (has_alpha && looks_through && is_hole(triangle, barycentrics)) discard;
-    if ((has_alpha || has_transmission) && !looks_through && is_see_through(triangle, barycentrics)) discard;
+    if (has_alpha && follows_through && is_hole(triangle, barycentrics)) discard;
+    if ((has_alpha || has_transmission) && !follows_through && is_see_through(triangle, barycentrics)) discard;
     visible = uvec4(triangle, floatBitsToUint(barycentrics.x), floatBitsToUint(barycentrics.y),
                     floatBitsToUint(frame.near / gl_FragCoord.z));
 }

@@ -19,7 +19,7 @@
 #include "maps/build.h"
 #include "number_option.h"
 #include "photons/shoot.h"
-#include "scene/profile.h"
+#include "scene/load_scene.h"
 
 namespace {
 

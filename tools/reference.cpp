@@ -15,7 +15,8 @@
 #include "number_option.h"
 #include "scene/ambiance.h"
 #include "scene/camera.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
+#include "scene/load_scene.h"
 #include "trace/reference.h"
 
 namespace {
@@ -49,10 +50,10 @@ void render(Options& options) {
     lw::check_can_create(options.output, scene.files);
     lw::check_reference_fits(options.settings, lw::available_memory());
     const lw::RayCaster caster(scene);
-    const std::vector<lw::vec3> weights =
-        lw::light_powers(scene, lw::chosen_factors(scene, options.ambiance, options.powers));
+    const std::vector<lw::vec3> powers =
+        lw::lamp_powers(scene, lw::chosen_factors(scene, options.ambiance, options.powers));
     const lw::Reference reference =
-        lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), weights, options.settings);
+        lw::render_reference(scene, caster, lw::find_camera(scene, options.camera), powers, options.settings);
     lw::check_is_light(reference.image);
     lw::write_exr(options.output, reference.image);
     std::printf("wrote %s: %llu samples per pixel, relative standard error %.4f\n",

@@ -17,7 +17,8 @@
 #include "number_option.h"
 #include "scene/ambiance.h"
 #include "scene/camera.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
+#include "scene/load_scene.h"
 #include "trace/build_bvh.h"
 
 namespace {
@@ -145,7 +146,7 @@ void take_screenshot(const Options& o) {
                              .rays = lw::rays_named(o.rays)});
     const lw::Bvh bvh = lw::build_bvh(scene);
     lw::Resident resident(device, scene, map, bvh);
-    resident.set_light_factors(factors);
+    resident.set_lamp_factors(factors);
     const vk::Extent2D size = picture_size(o, camera);
     lw::Renderer renderer(device, resident, size.width, size.height);
     const lw::GatherSettings gather{lw::gather_mode_named(o.gather), o.neighbours, o.shadow_rays, o.paths,

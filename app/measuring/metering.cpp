@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 #include "base/error.h"
 #include "base/replaced_file.h"
 #include "measure/table.h"
@@ -14,7 +16,7 @@ namespace lw {
 namespace {
 
 Pin measured(const Session& s, const Probe& probe, const Hit& hit, vec3 viewer) {
-    return {hit, viewer, probe.measure(light_powers(s.world.scene, factors_now(s.lighting)), {hit, viewer})};
+    return {hit, viewer, probe.measure(lamp_powers(s.world.scene, factors_now(s.lighting)), {hit, viewer})};
 }
 
 std::string quoted(const std::string& text) {

@@ -34,7 +34,7 @@ void ReflectionSearch::search() {
     settings.width = int(columns);
     settings.height = int(std::max(1u, columns * asked_.size.y / asked_.size.x));
     settings.samples = samples;
-    found_ = find_reflections(scene_, caster_, camera, asked_.weights, settings);
+    found_ = find_reflections(scene_, caster_, camera, asked_.powers, settings);
     running_ = false;
 }
 

@@ -14,8 +14,8 @@ struct ReflectionView {
     vec3 position{0};
     mat3 rotation{1};
     float yfov = 0;
-    uvec2 size{0};              // pixels of the picture
-    std::vector<vec3> weights;  // RGB power of each lamp
+    uvec2 size{0};             // pixels of the picture
+    std::vector<vec3> powers;  // RGB power of each lamp
     bool operator==(const ReflectionView&) const = default;
 };
 

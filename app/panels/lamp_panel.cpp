@@ -39,7 +39,7 @@ std::string power_of(const Session& s, size_t i) {
 /// The menu of the right mouse button on a lamp: the groups that it belongs to.
 void draw_group_menu(Session& s, const std::string& lamp) {
     if (!ImGui::BeginPopupContextItem("##groups")) return;
-    auto& groups = s.lighting.book.groups;
+    auto& groups = s.lighting.presets.groups;
     if (groups.empty()) ImGui::TextDisabled("no groups yet: write a name above, then \"as group\"");
     for (auto& [name, lamps] : groups) {
         const auto found = std::find(lamps.begin(), lamps.end(), lamp);
@@ -48,14 +48,14 @@ void draw_group_menu(Session& s, const std::string& lamp) {
             lamps.erase(found);
         else
             lamps.push_back(lamp);
-        save_book(s, "group \"" + name + "\"");
+        save_presets(s, "group \"" + name + "\"");
     }
     ImGui::EndPopup();
 }
 
 void draw_lamp(Session& s, size_t i) {
     Lighting& l = s.lighting;
-    LampState& lamp = l.board[i];
+    LampState& lamp = l.lamps[i];
     ImGui::PushID(int(i));
     const bool selected = l.selected == int(i);
     ImGui::Checkbox("##on", &lamp.on);
@@ -87,17 +87,17 @@ void draw_group(Session& s, const std::string& name, const std::vector<size_t>& 
     ImGui::PushID(name.c_str());
     ImGui::SetNextItemOpen(true, ImGuiCond_Once);
     if (ImGui::CollapsingHeader((name + "##group").c_str())) {
-        bool all_on = std::all_of(lamps.begin(), lamps.end(), [&](size_t i) { return l.board[i].on; });
+        bool all_on = std::all_of(lamps.begin(), lamps.end(), [&](size_t i) { return l.lamps[i].on; });
         if (ImGui::Checkbox("##all", &all_on))
-            for (size_t i : lamps) l.board[i].on = all_on;
+            for (size_t i : lamps) l.lamps[i].on = all_on;
         ImGui::SameLine();
         float mean = 0;
-        for (size_t i : lamps) mean += l.board[i].dimmer / float(lamps.size());
+        for (size_t i : lamps) mean += l.lamps[i].dimmer / float(lamps.size());
         if (draw_dimmer("##group dimmer", mean))
-            for (size_t i : lamps) l.board[i].dimmer = mean;
+            for (size_t i : lamps) l.lamps[i].dimmer = mean;
         if (by_hand && ImGui::SmallButton("dissolve group")) {
-            l.book.groups.erase(name);
-            save_book(s, "without group \"" + name + "\": groups");
+            l.presets.groups.erase(name);
+            save_presets(s, "without group \"" + name + "\": groups");
         }
         for (size_t i : lamps)
             if (matches(s.world.scene.light_names[i], l.search)) draw_lamp(s, i);
@@ -116,7 +116,7 @@ void draw_groups(Session& s) {
         else
             by_parent[scene.light_groups[i]].push_back(i);
     }
-    const auto groups = s.lighting.book.groups;  // a copy: dissolving changes the book
+    const auto groups = s.lighting.presets.groups;  // a copy: dissolving changes the presets
     for (const auto& [name, names] : groups) {
         std::vector<size_t> lamps;
         for (size_t i = 0; i < scene.lights.size(); ++i)
@@ -141,7 +141,7 @@ void draw_ambiances(Session& s) {
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##ambiance", l.current.empty() ? "ambiance..." : l.current.c_str())) {
         if (ImGui::Selectable("as in the file")) choose_ambiance(s, "as in the file", {});
-        for (const auto& [name, ambiance] : l.book.ambiances)
+        for (const auto& [name, ambiance] : l.presets.ambiances)
             if (ImGui::Selectable(name.c_str())) choose_ambiance(s, name, ambiance);
         ImGui::EndCombo();
     }
@@ -151,18 +151,18 @@ void draw_ambiances(Session& s) {
     ImGui::InputTextWithHint("##name", "name", &new_name);
     ImGui::SameLine();
     if (ImGui::Button("save") && !new_name.empty()) {
-        l.book.ambiances[new_name] = ambiance_of(s.world.scene, l.board);
+        l.presets.ambiances[new_name] = ambiance_of(s.world.scene, l.lamps);
         l.current = new_name;
-        save_book(s, "ambiance \"" + new_name + "\"");
+        save_presets(s, "ambiance \"" + new_name + "\"");
     }
     ImGui::SameLine();
     if (ImGui::Button("as group") && !new_name.empty()) {
-        std::vector<std::string>& group = l.book.groups[new_name];
+        std::vector<std::string>& group = l.presets.groups[new_name];
         group.clear();
-        for (size_t i = 0; i < l.board.size(); ++i)
-            if (l.board[i].solo || (l.search.size() && matches(s.world.scene.light_names[i], l.search)))
+        for (size_t i = 0; i < l.lamps.size(); ++i)
+            if (l.lamps[i].solo || (l.search.size() && matches(s.world.scene.light_names[i], l.search)))
                 group.push_back(s.world.scene.light_names[i]);
-        save_book(s, "group \"" + new_name + "\"");
+        save_presets(s, "group \"" + new_name + "\"");
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("the lamps that the search finds, and those in solo, as a group");
 }
@@ -179,7 +179,7 @@ void draw_lamp_panel(Session& s) {
         ImGui::SetNextItemWidth(-60);
         ImGui::InputTextWithHint("##search", "search", &s.lighting.search);
         ImGui::SameLine();
-        if (ImGui::Button("reset")) fade_to(s.lighting, LampBoard(s.lighting.board.size()));
+        if (ImGui::Button("reset")) fade_to(s.lighting, LampStates(s.lighting.lamps.size()));
         draw_photometry_section(s);
         if (ImGui::BeginChild("lamps")) draw_groups(s);
         ImGui::EndChild();

@@ -176,8 +176,8 @@ void draw_lamp_marks(const Session& s) {
         list->AddCircle(ImVec2(at->x, at->y), selected ? 9.0f : 6.0f, color, 0, selected ? 2.0f : 1.0f);
         if (selected)
             draw_plate(at->x + 14, at->y - 7,
-                       scene.light_names[i] + format("  %.0f %%", 100 * double(s.lighting.board[i].dimmer)) +
-                           (s.lighting.board[i].on ? "" : "  off"));
+                       scene.light_names[i] + format("  %.0f %%", 100 * double(s.lighting.lamps[i].dimmer)) +
+                           (s.lighting.lamps[i].on ? "" : "  off"));
     }
 }
 

@@ -1,5 +1,7 @@
 #include <imgui.h>
 
+#include <chrono>
+
 #include "app/panels/panels.h"
 
 namespace lw {
@@ -54,9 +56,9 @@ void draw_keys() {
     ImGui::End();
 }
 
-void draw_notice(const Session& s, const std::optional<ProgressBoard::State>& baking, double now) {
+void draw_notice(const Session& s, const std::optional<ProgressBoard::State>& baking) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    if (now < s.notice.until) {
+    if (std::chrono::steady_clock::now() < s.notice.until) {
         const ImVec2 text = ImGui::CalcTextSize(s.notice.text.c_str()), border = ImGui::GetStyle().WindowPadding;
         ImGui::SetNextWindowPos(ImVec2(size.x / 2, 14), ImGuiCond_Always, ImVec2(0.5f, 0));
         ImGui::SetNextWindowSize(ImVec2(text.x + 2 * border.x, text.y + 2 * border.y));  // fits from its first frame on

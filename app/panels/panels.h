@@ -29,7 +29,7 @@ void draw_reflections(const Session& session, const ReflectionReport* report);
 /// The list of all keys.
 void draw_keys();
 /// The last message to the user, and the progress of a running bake.
-void draw_notice(const Session& session, const std::optional<ProgressBoard::State>& baking, double now);
+void draw_notice(const Session& session, const std::optional<ProgressBoard::State>& baking);
 
 /// Text on a dark plate over the picture, its top left corner at (x, y).
 void draw_plate(float x, float y, const std::string& text, uint color = 0xfff0f0f0u);

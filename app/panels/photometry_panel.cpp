@@ -97,7 +97,7 @@ void draw_photometry_section(Session& s) {
         ImGui::TextDisabled("%s", distribution_text(light.type));
     }
     draw_choice(s, lamp);
-    if (s.lighting.book.photometry.contains(name) && ImGui::Button("take the file off")) attach_file(s, lamp, "");
+    if (s.lighting.presets.photometry.contains(name) && ImGui::Button("take the file off")) attach_file(s, lamp, "");
 }
 
 }  // namespace lw

@@ -2,24 +2,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "app/measuring/metering.h"
 #include "app/panels/panels.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 #include "base/memory.h"
 
 namespace lw {
 namespace {
 
-constexpr const char* view_names[view_count] = {
-    "shaded",  "illuminance, lx",      "luminance, cd/m2", "difference, lx",    "difference, %",
-    "photons", "photons per estimate", "bandwidth, cm",    "estimated error, %"};
-constexpr const char* curve_names[curve_count] = {"neutral (Khronos)", "linear, clipped", "soft (Reinhard)"};
+/// An entry of a combo box: the value it stands for and what the user reads.
+struct Entry {
+    uint value;
+    const char* text;
+};
+
+constexpr Entry views[] = {{view_shaded, "shaded"},
+                           {view_illuminance, "illuminance, lx"},
+                           {view_luminance, "luminance, cd/m2"},
+                           {view_difference, "difference, lx"},
+                           {view_relative_difference, "difference, %"},
+                           {view_photons, "photons"},
+                           {view_photon_count, "photons per estimate"},
+                           {view_bandwidth, "bandwidth, cm"},
+                           {view_error, "estimated error, %"}};
+constexpr Entry curves[] = {
+    {curve_neutral, "neutral (Khronos)"}, {curve_linear, "linear, clipped"}, {curve_soft, "soft (Reinhard)"}};
+constexpr Entry divisors[] = {{0, "automatic"}, {1, "all"}, {2, "half"}, {3, "third"}, {4, "quarter"}};
+static_assert(std::size(views) == view_count && std::size(curves) == curve_count);
+
+/// A combo box that sets `value` to that of the chosen entry.
+void combo_box(const char* label, std::span<const Entry> entries, uint& value) {
+    const auto is_value = [&](const Entry& e) { return e.value == value; };
+    const auto now = std::find_if(entries.begin(), entries.end(), is_value);
+    if (!ImGui::BeginCombo(label, now == entries.end() ? "" : now->text)) return;
+    for (const Entry& e : entries) {
+        if (ImGui::Selectable(e.text, e.value == value)) value = e.value;
+        if (e.value == value) ImGui::SetItemDefaultFocus();
+    }
+    ImGui::EndCombo();
+}
 
 void draw_view_choice(Session& s) {
     Viewing& v = s.viewing;
-    int view = int(v.view);
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::Combo("##view", &view, view_names, int(view_count))) v.view = uint(view);
+    combo_box("##view", views, v.view);
     ImGui::Checkbox("reflections of lamps", &v.reflections);
     if (v.view == view_shaded || v.view == view_photons) return;
     ImGui::Checkbox("auto range", &v.auto_range);
@@ -42,9 +72,8 @@ void draw_exposure(Viewing& v) {
     ImGui::SetNextItemWidth(150);
     ImGui::SliderFloat("EV", &v.exposure_ev, -4, 18, "%.2f");
     if (ImGui::IsItemEdited()) v.auto_exposure = false;
-    int curve = int(v.curve);
     ImGui::SetNextItemWidth(150);
-    if (ImGui::Combo("curve", &curve, curve_names, int(curve_count))) v.curve = uint(curve);
+    combo_box("curve", curves, v.curve);
 }
 
 void draw_comparison(Session& s) {
@@ -52,7 +81,7 @@ void draw_comparison(Session& s) {
     ImGui::Checkbox("A | B", &c.on);
     ImGui::SameLine();
     if (ImGui::Button("keep these lamps as B")) {
-        c.board = s.lighting.board;
+        c.lamps = s.lighting.lamps;
         c.name = "kept";
         c.on = true;
     }
@@ -60,12 +89,12 @@ void draw_comparison(Session& s) {
     if (ImGui::BeginCombo("B", c.name.c_str())) {
         const auto choose = [&](const std::string& name, const Ambiance& ambiance) {
             std::vector<std::string> missing;
-            c.board = with_ambiance(s.world.scene, ambiance, missing);
+            c.lamps = with_ambiance(s.world.scene, ambiance, missing);
             c.name = name;
             c.on = true;
         };
         if (ImGui::Selectable("as in the file")) choose("as in the file", {});
-        for (const auto& [name, ambiance] : s.lighting.book.ambiances)
+        for (const auto& [name, ambiance] : s.lighting.presets.ambiances)
             if (ImGui::Selectable(name.c_str())) choose(name, ambiance);
         ImGui::EndCombo();
     }
@@ -93,9 +122,8 @@ void draw_quality(Viewing& v, const FrameStatistics& statistics) {
     if (ImGui::SliderInt("shadow rays", &rays, 0, 64)) v.gather.shadow_rays = uint(std::clamp(rays, 0, 64));
     ImGui::SetNextItemWidth(110);
     if (ImGui::SliderInt("views while still", &samples, 1, 256)) v.max_samples = uint(std::clamp(samples, 1, 4096));
-    int divisor = int(v.divisor);
     ImGui::SetNextItemWidth(110);
-    if (ImGui::Combo("pixels in motion", &divisor, "automatic\0all\0half\0third\0quarter\0")) v.divisor = uint(divisor);
+    combo_box("pixels in motion", divisors, v.divisor);
     if (statistics.error)
         ImGui::Text("estimated error %.1f %%, 95th percentile %.1f %%", double(statistics.error->x),
                     double(statistics.error->y));

@@ -69,7 +69,7 @@ std::optional<vec2> spread_of(const std::vector<ReadbackPixel>& readback) {
     return vec2(values[values.size() / 2], values[values.size() * 95 / 100]);
 }
 
-uint Divisor::next(uint wanted, const RendererTimes& last, bool still) {
+uint DynamicResolution::next(uint wanted, const RendererTimes& last, bool still) {
     if (wanted > 0) return wanted;
     if (last.drew && last.rows == 0) {
         fixed_ms_ = last.visibility_ms + last.view_ms;
@@ -78,7 +78,7 @@ uint Divisor::next(uint wanted, const RendererTimes& last, bool still) {
     // A frame that takes a little too long does not make pixels larger, least of all in motion.
     const double max_ms = (still ? 1.1 : 1.25) * wanted_frame_ms;
     uint needed = 1;
-    while (needed < most && fixed_ms_ + light_ms_ / (needed * needed) > max_ms) ++needed;
+    while (needed < max_divisor && fixed_ms_ + light_ms_ / (needed * needed) > max_ms) ++needed;
     now_ = still ? needed : std::max(now_, needed);
     return now_;
 }

@@ -21,16 +21,16 @@ std::optional<vec2> spread_of(const std::vector<ReadbackPixel>& readback);
 /// Chooses the divisor of the picture's width and height in motion, so that a frame takes about wanted_frame_ms. It
 /// grows when a frame takes a quarter longer. It shrinks only while the view is still, so that the resolution does not
 /// flicker.
-class Divisor {
+class DynamicResolution {
   public:
-    static constexpr uint most = 4;
+    static constexpr uint max_divisor = 4;
 
     /// The divisor of the next frame. `wanted`: the user's choice, 0 for automatic. `last`: times of the last frame.
     /// `still`: the view does not change, and samples add up.
     uint next(uint wanted, const RendererTimes& last, bool still);
 
   private:
-    uint now_ = most;
+    uint now_ = max_divisor;
     double fixed_ms_ = 0,
            light_ms_ = 1e9;  // of a frame at full resolution: all that does not depend on the pixels; the gather
 };

@@ -6,6 +6,8 @@
 #include "app/controls.h"
 #include "app/measuring/metering.h"
 #include "app/panels/panels.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 #include "app/window/clipboard.h"
 #include "base/error.h"
 #include "image/exr.h"
@@ -28,7 +30,7 @@ DeviceSettings with_window(DeviceSettings settings) {
 ReflectionView reflection_view_of(const Session& s, vk::Extent2D size) {
     const Camera camera = camera_of(s.walker, s.yfov, s.near);
     return {camera.position, camera.rotation, camera.yfov, uvec2(size.width, size.height),
-            light_powers(s.world.scene, factors_now(s.lighting))};
+            lamp_powers(s.world.scene, factors_now(s.lighting))};
 }
 
 }  // namespace
@@ -72,10 +74,10 @@ void Viewer::frame(const BakingState& baking) {
 }
 
 void Viewer::take_input(const Events& events, float seconds) {
-    const Taken taken{overlay_.wants_mouse() && !window_.is_captured(), overlay_.wants_keyboard()};
-    apply_actions(session_, window_, events, taken, probe_.get());
+    const PanelCapture capture{overlay_.wants_mouse() && !window_.is_captured(), overlay_.wants_keyboard()};
+    apply_actions(session_, window_, events, capture, probe_.get());
     apply_buttons(session_, events.buttons);
-    advance(session_, walk_input(window_, events, taken, seconds), seconds);
+    advance(session_, walk_input(window_, events, capture, seconds), seconds);
     measure();
 }
 
@@ -112,18 +114,18 @@ void Viewer::draw_panels(const BakingState& baking, double now) {
     }
     if (session_.panels) draw_lamp_panel(session_), draw_view_panel(session_);
     if (session_.keys) draw_keys();
-    draw_notice(session_, baking, now);
+    draw_notice(session_, baking);
 }
 
 void Viewer::present(const OpenFrame& open, const BakingState& baking, double now) {
     if (renderer_) follow_picture(open.slot);
     draw_panels(baking, now);
-    if (renderer_) record_stage(open);
-    const PictureRequest wish = session_.picture_request;
+    if (renderer_) record_frame(open);
+    const PictureRequest request = session_.picture_request;
     presenter_.end(
         open, renderer_ ? &renderer_->screen() : nullptr,
-        [&](vk::CommandBuffer commands) { overlay_.record(commands, open.image); }, wish != PictureRequest::none);
-    if (wish != PictureRequest::none) keep_screenshot();
+        [&](vk::CommandBuffer commands) { overlay_.record(commands, open.image); }, request != PictureRequest::none);
+    if (request != PictureRequest::none) keep_screenshot();
 }
 
 /// Takes times, exposure and range of false colours from the last finished frame of this slot.
@@ -135,8 +137,9 @@ void Viewer::follow_picture(uint slot) {
     adapt_to(session_.viewing, renderer_->readback(slot, session_.viewing.view), seconds_);
 }
 
-void Viewer::record_stage(const OpenFrame& open) {
-    const uint divisor = divisor_.next(session_.viewing.divisor, session_.statistics.times, renderer_->samples() > 1);
+void Viewer::record_frame(const OpenFrame& open) {
+    const uint divisor =
+        resolution_.next(session_.viewing.divisor, session_.statistics.times, renderer_->samples() > 1);
     FrameRequest request = frame_request_of(session_, divisor);
     if (!renderer_->shows(request, session_.viewing.view)) changed_ = last_;
     request.sharpens = last_ - changed_ > sharpens_after_seconds;
@@ -156,10 +159,10 @@ void Viewer::estimate_error(const FrameRequest& request, uint slot) {
 }
 
 void Viewer::keep_screenshot() {
-    const PictureRequest wish = session_.picture_request;
+    const PictureRequest request = session_.picture_request;
     session_.picture_request = PictureRequest::none;
     try {
-        if (wish == PictureRequest::copy) {
+        if (request == PictureRequest::copy) {
             copy_to_clipboard(presenter_.shown());
             return tell(session_, "picture copied to the clipboard");
         }

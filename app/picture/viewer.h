@@ -34,7 +34,7 @@ class Viewer {
     void draw_panels(const BakingState& baking, double now);
     void present(const OpenFrame& open, const BakingState& baking, double now);
     void follow_picture(uint slot);
-    void record_stage(const OpenFrame& open);
+    void record_frame(const OpenFrame& open);
     void estimate_error(const FrameRequest& request, uint slot);
     void keep_screenshot();
 
@@ -49,7 +49,7 @@ class Viewer {
     double changed_ = 0;                  // time at which the picture last started anew, s
     double last_, shown_;
     float seconds_ = 0;
-    Divisor divisor_;
+    DynamicResolution resolution_;
     ReflectionSearch reflections_;
     std::vector<vec3> measured_;  // factors of the lamps, eye and rotation at the last measurement
     vec3 measured_eye_{0};

@@ -1,10 +1,11 @@
 // All that the user can change: place, lamps, what is shown and measured. Panels and keys write it, the frame reads it.
 #pragma once
+#include <chrono>
 #include <optional>
 
 #include "app/measuring/fields.h"
 #include "app/picture/progressive_renderer.h"
-#include "app/session/lamp_board.h"
+#include "app/session/lamp_states.h"
 #include "app/session/world.h"
 #include "app/walk/places.h"
 #include "measure/probe.h"
@@ -18,20 +19,20 @@ struct Fade {
 };
 
 struct Lighting {
-    LampBoard board;
-    std::optional<Fade> fade;  // from the factors before to those of the board
+    LampStates lamps;
+    std::optional<Fade> fade;  // from the factors before to those of `lamps`
     float fade_seconds = 1;
     int selected = -1;     // lamp
     int scrolled_to = -1;  // lamp that the panel has last scrolled into view, or -1
     std::string search;
-    LampBook book;
-    std::string book_trouble;  // why the file beside the scene could not be read and must not be overwritten, or ""
-    std::string current;       // ambiance chosen last
+    LampPresets presets;
+    std::string presets_error;  // why the file beside the scene could not be read and must not be overwritten, or ""
+    std::string current;        // ambiance chosen last
 };
 
 struct Comparison {
     bool on = false;
-    LampBoard board;  // B
+    LampStates lamps;  // B
     std::string name = "as in the file";
     float split = 0.5f;
 };
@@ -69,7 +70,7 @@ enum class PictureRequest { none, save, copy };
 /// A message that the user sees for a few seconds.
 struct Notice {
     std::string text;
-    double until = 0;  // s, Window::now()
+    std::chrono::steady_clock::time_point until{};
 };
 
 struct FrameStatistics {
@@ -82,6 +83,7 @@ struct FrameStatistics {
 };
 
 struct Session {
+    /// At the first camera, all lamps as in the scene; open_session() adds what is kept beside the scene.
     Session(const World& world, std::filesystem::path output);
     /// Continues a session in the same building after it was loaded again with other lamps.
     Session(const World& world, const Session& before);
@@ -94,7 +96,7 @@ struct Session {
     std::optional<ViewTransition> transition;
     int place = 0;  // index of the place flown to last
     std::vector<Bookmark> bookmarks;
-    std::string bookmarks_trouble;  // why the file of bookmarks must not be overwritten, or ""
+    std::string bookmarks_error;  // why the file of bookmarks must not be overwritten, or ""
     std::optional<Path> recording;
     double recorded_seconds = 0;
     Lighting lighting;
@@ -102,47 +104,18 @@ struct Session {
     Viewing viewing;
     Metering metering;
     Fields fields;
-    bool panels = true, keys = false, full_screen = false;
+    bool panels = true, keys = false;  // shown
     PictureRequest picture_request = PictureRequest::none;
     bool reload = false;  // lamps have other photometric files now: the scene must be loaded and baked again
     Notice notice;
     FrameStatistics statistics;
 };
 
-/// Shows a message for some seconds.
-void tell(Session& session, const std::string& text, double seconds = 5);
-
 /// The RGB factors of the lamps at this moment of a crossfade.
 std::vector<vec3> factors_now(const Lighting& lighting);
-
-/// Makes `board` the current one, with a crossfade from the factors of this moment.
-void fade_to(Lighting& lighting, const LampBoard& board);
-
-/// Writes ambiances, groups and photometric files to the file beside the scene. Tells the user that `what` is saved, or
-/// why it is not.
-void save_book(Session& session, const std::string& what);
-
-/// Puts a photometric file (relative to the scene's folder) on a point or spot lamp, or takes it off (""); keeps that
-/// beside the scene and asks for the scene to be loaded anew. Tells what is wrong with a file.
-void attach_file(Session& session, size_t lamp, const std::string& file);
-
-/// Flies to place `index`, counted over the cameras of the scene, then the bookmarks. Returns false when there is none.
-bool fly_to(Session& session, size_t index);
-
-/// Adds the current view to the bookmarks and saves them beside the scene.
-void add_bookmark(Session& session);
-
-/// Starts recording the walk, or ends and saves it.
-void toggle_recording(Session& session);
-
-/// Advances the session by `seconds`: transition or walk, crossfade, recording.
-void advance(Session& session, const WalkInput& input, float seconds);
 
 /// The request and the display settings of the next frame.
 FrameRequest frame_request_of(const Session& session, uint divisor);
 DisplaySettings display_settings_of(const Session& session, bool bgr);
-
-/// A file in the output folder that does not exist yet: SCENE-001.EXT, SCENE-002.EXT, ...
-std::filesystem::path free_name(const Session& session, const std::string& extension);
 
 }  // namespace lw

@@ -4,27 +4,27 @@
 
 #include "base/error.h"
 #include "file/map_file.h"
-#include "scene/gltf.h"
-#include "scene/profile.h"
+#include "scene/load_scene.h"
 #include "trace/build_bvh.h"
 
 namespace lw {
 namespace {
 
-Scene load_and_warn(const std::filesystem::path& path, const std::vector<std::string>& photometry) {
-    Scene scene = with_photometry(load_gltf(path), photometry);
+Scene load_and_warn(const std::filesystem::path& path, const LampPresets& presets,
+                    const std::vector<std::string>& photometry) {
+    Scene scene = load_scene(path, presets, photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     return scene;
 }
 
 }  // namespace
 
-World::World(const std::filesystem::path& path, const std::vector<std::string>& photometry)
-    : scene(load_and_warn(path, photometry)),
+World::World(const std::filesystem::path& path, const LampPresets& presets, const std::vector<std::string>& photometry)
+    : scene(load_and_warn(path, presets, photometry)),
       caster(scene),
       bvh(build_bvh(scene)),
-      around(scene, caster),
-      luminaires(luminaires_of(scene, photometry)) {}
+      collision(scene, caster),
+      luminaires(luminaires_of(scene, photometry_texts(presets, path, photometry))) {}
 
 std::shared_ptr<const PhotonMap> try_load_map(const std::filesystem::path& path, const Scene& scene,
                                               std::string& reason) {

@@ -4,21 +4,21 @@
 #include <memory>
 
 #include "app/session/luminaire.h"
-#include "app/walk/surroundings.h"
+#include "app/walk/collision_mesh.h"
 #include "maps/photon_map.h"
 #include "scene/bvh.h"
+#include "scene/load_scene.h"
 
 namespace lw {
 
 struct World {
-    /// Loads the scene with photometric files ("LAMP=FILE") on its lamps, prints its warnings. Throws Error as
-    /// load_gltf() and with_photometry().
-    World(const std::filesystem::path& path, const std::vector<std::string>& photometry);
+    /// load_scene(), whose warnings are printed. Throws Error as that.
+    World(const std::filesystem::path& path, const LampPresets& presets, const std::vector<std::string>& photometry);
 
     Scene scene;
     RayCaster caster;
     Bvh bvh;
-    Surroundings around;
+    CollisionMesh collision;
     std::map<size_t, Luminaire> luminaires;  // by lamp, for those with a light distribution
 };
 

@@ -37,15 +37,15 @@ struct Ground {
     float height = 0;  // m, of the stored positions
 };
 
-Ground ground_below(vec3 feet, const Body& body, const Surroundings& around) {
+Ground ground_below(vec3 feet, const Body& body, const CollisionMesh& collision) {
     const vec3 above(0, body.step, 0);
     Ground ground;
     const float reach = 0.6f * body.radius;
     const vec3 places[] = {{0, 0, 0}, {reach, 0, 0}, {-reach, 0, 0}, {0, 0, reach}, {0, 0, -reach}};
     for (const vec3& place : places) {
         const bool middle = &place == &places[0];
-        if (!middle && !around.is_free(feet + above, feet + above + place)) continue;
-        const std::optional<float> floor = around.floor_below(feet + above + place);
+        if (!middle && !collision.is_free(feet + above, feet + above + place)) continue;
+        const std::optional<float> floor = collision.floor_below(feet + above + place);
         if (middle && !floor) return ground;
         if (!floor) continue;
         ground.height = middle ? *floor : std::max(ground.height, *floor);
@@ -55,35 +55,35 @@ Ground ground_below(vec3 feet, const Body& body, const Surroundings& around) {
 }
 
 /// True when no surface crosses the way of the shins, the chest or the eyes.
-bool passes(vec3 from_feet, vec3 to_feet, const Body& body, const Surroundings& around) {
+bool passes(vec3 from_feet, vec3 to_feet, const Body& body, const CollisionMesh& collision) {
     for (float height : {body.step * 1.02f, 0.5f * (body.step + body.eye_height), body.eye_height})
-        if (!around.is_free(from_feet + vec3(0, height, 0), to_feet + vec3(0, height, 0))) return false;
+        if (!collision.is_free(from_feet + vec3(0, height, 0), to_feet + vec3(0, height, 0))) return false;
     return true;
 }
 
 /// The feet after one short move; unchanged when the way is blocked.
-vec3 moved(vec3 feet, vec3 move, const Body& body, const Surroundings& around) {
-    const float overlap_before = around.overlap(trunk(feet, body));
+vec3 moved(vec3 feet, vec3 move, const Body& body, const CollisionMesh& collision) {
+    const float overlap_before = collision.overlap(trunk(feet, body));
     vec3 to = feet + move;
-    const Ground ground = ground_below(to, body, around);
+    const Ground ground = ground_below(to, body, collision);
     if (!ground.exists) return feet;
     const bool stands = ground.height >= feet.y - body.step;
     if (stands) to.y = ground.height;
-    to += around.push_out(trunk(to, body));
-    if (around.overlap(trunk(to, body)) > std::max(overlap_before, 0.05f * body.radius)) return feet;
+    to += collision.push_out(trunk(to, body));
+    if (collision.overlap(trunk(to, body)) > std::max(overlap_before, 0.05f * body.radius)) return feet;
     const vec3 level(to.x, feet.y, to.z);
-    if (!passes(feet, level, body, around)) return feet;
-    const Ground there = ground_below(to, body, around);
+    if (!passes(feet, level, body, collision)) return feet;
+    const Ground there = ground_below(to, body, collision);
     if (!there.exists || there.height > to.y + body.step) return feet;
-    if (to.y > feet.y && !around.is_free(level + vec3(0, body.eye_height, 0), to + vec3(0, body.eye_height, 0)))
+    if (to.y > feet.y && !collision.is_free(level + vec3(0, body.eye_height, 0), to + vec3(0, body.eye_height, 0)))
         return feet;
     return to;
 }
 
 /// Puts the walker on the floor, or lets it fall towards it.
-Walker fallen(Walker w, float seconds, const Body& body, const Surroundings& around) {
+Walker fallen(Walker w, float seconds, const Body& body, const CollisionMesh& collision) {
     const vec3 feet = w.eye - vec3(0, w.height, 0);
-    const Ground ground = ground_below(feet, body, around);
+    const Ground ground = ground_below(feet, body, collision);
     if (!ground.exists) return w;
     const float drop = feet.y - ground.height;
     if (drop <= body.step) {
@@ -97,22 +97,22 @@ Walker fallen(Walker w, float seconds, const Body& body, const Surroundings& aro
 }
 
 /// Moves the eye smoothly to its height over the floor.
-Walker settled(Walker w, float seconds, const Body& body, const Surroundings& around) {
+Walker settled(Walker w, float seconds, const Body& body, const CollisionMesh& collision) {
     const float change = (body.eye_height - w.height) * (1 - std::exp(-seconds * eye_settles_per_second));
-    if (!around.is_free(w.eye, w.eye + vec3(0, change + std::copysign(0.3f * body.radius, change), 0))) return w;
+    if (!collision.is_free(w.eye, w.eye + vec3(0, change + std::copysign(0.3f * body.radius, change), 0))) return w;
     w.height += change;
     w.eye.y += change;
     w.settling = std::abs(body.eye_height - w.height) > 1e-3f;
     return w;
 }
 
-Walker walked(Walker w, vec3 way, const Body& body, const Surroundings& around) {
+Walker walked(Walker w, vec3 way, const Body& body, const CollisionMesh& collision) {
     const int parts = 1 + int(length(way) / (0.45f * body.radius));
     for (int i = 0; i < parts; ++i) {
         const vec3 feet = w.eye - vec3(0, w.height, 0), part = way / float(parts);
-        vec3 to = moved(feet, part, body, around);
-        if (to == feet) to = moved(feet, vec3(part.x, 0, 0), body, around);
-        if (to == feet) to = moved(feet, vec3(0, 0, part.z), body, around);
+        vec3 to = moved(feet, part, body, collision);
+        if (to == feet) to = moved(feet, vec3(part.x, 0, 0), body, collision);
+        if (to == feet) to = moved(feet, vec3(0, 0, part.z), body, collision);
         if (to == feet) break;
         w.eye += vec3(to.x - feet.x, 0, to.z - feet.z);
         w.height -= to.y - feet.y;
@@ -131,7 +131,8 @@ Body body_for(const Scene& scene) {
     return body;
 }
 
-Walker walk(const Walker& before, const WalkInput& input, float seconds, const Body& body, const Surroundings& around) {
+Walker walk(const Walker& before, const WalkInput& input, float seconds, const Body& body,
+            const CollisionMesh& collision) {
     const float dt = std::clamp(seconds, 0.0f, max_step_seconds);
     Walker w = turned(before, input.turn);
     const float speed = body.speed * (input.fast ? body.shift_factor : 1.0f);
@@ -143,25 +144,25 @@ Walker walk(const Walker& before, const WalkInput& input, float seconds, const B
     }
     const vec3 way = at_most_unit(right_of(w) * input.move.x + ahead_of(w) * input.move.z) * (speed * dt);
     const bool moves = length(way) > 0;
-    if (moves) w = walked(w, way, body, around);
+    if (moves) w = walked(w, way, body, collision);
     if (moves || w.fall_speed > 0) {
-        w = fallen(w, dt, body, around);
+        w = fallen(w, dt, body, collision);
         w.settling = true;
     }
-    return w.settling ? settled(w, dt, body, around) : w;
+    return w.settling ? settled(w, dt, body, collision) : w;
 }
 
-Walker walker_at(const Camera& camera, const Body& body, const Surroundings& around) {
+Walker walker_at(const Camera& camera, const Body& body, const CollisionMesh& collision) {
     Walker w;
     const vec3 ahead = -camera.rotation[2];
     w.eye = camera.position;
     w.yaw = std::atan2(-ahead.x, -ahead.z);
     w.pitch = std::clamp(std::asin(std::clamp(ahead.y, -1.0f, 1.0f)), -steepest_look, steepest_look);
-    return land(w, body, around);
+    return land(w, body, collision);
 }
 
-Walker land(Walker w, const Body& body, const Surroundings& around) {
-    const std::optional<float> floor = around.floor_below(w.eye);
+Walker land(Walker w, const Body& body, const CollisionMesh& collision) {
+    const std::optional<float> floor = collision.floor_below(w.eye);
     w.fall_speed = 0;
     w.settling = false;
     w.flying = !floor;

@@ -2,7 +2,7 @@
 // up. Walking slides along walls, climbs steps, never passes a surface and never leaves the floor; flying passes
 // everything.
 #pragma once
-#include "app/walk/surroundings.h"
+#include "app/walk/collision_mesh.h"
 
 namespace lw {
 
@@ -35,13 +35,14 @@ struct WalkInput {
 };
 
 /// The state after `seconds`, of which at most 0.25 are simulated.
-Walker walk(const Walker& before, const WalkInput& input, float seconds, const Body& body, const Surroundings& around);
+Walker walk(const Walker& before, const WalkInput& input, float seconds, const Body& body,
+            const CollisionMesh& collision);
 
 /// A walker with the view of the camera; flying when there is no floor within reach of the feet.
-Walker walker_at(const Camera& camera, const Body& body, const Surroundings& around);
+Walker walker_at(const Camera& camera, const Body& body, const CollisionMesh& collision);
 
 /// The walker set on the floor below; still flying when there is none.
-Walker land(Walker walker, const Body& body, const Surroundings& around);
+Walker land(Walker walker, const Body& body, const CollisionMesh& collision);
 
 /// The camera at the walker's eye.
 Camera camera_of(const Walker& walker, float yfov, float near);

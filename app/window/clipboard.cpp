@@ -21,12 +21,12 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 /// Runs a program with these bytes as its input. Returns true when it ended with status 0, false also when there is no
 /// such program.
-bool run_with_input(std::vector<std::string> words, const std::vector<uint8_t>& bytes) {
+bool run_with_input(std::vector<std::string> arguments, const std::vector<uint8_t>& bytes) {
     const File input(std::tmpfile(), std::fclose);
     if (!input || std::fwrite(bytes.data(), 1, bytes.size(), input.get()) != bytes.size()) return false;
     std::rewind(input.get());
     std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
+    for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);

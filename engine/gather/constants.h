@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "gpu/specialize.h"
+#include "maps/photon_map.h"
+#include "scene/scene.h"
 #include "shaders/frame.h"
 #include "shaders/view.h"
 
@@ -20,8 +22,12 @@ struct ViewConstants {
 };
 #undef LW_CONSTANT
 
+/// What shaders must do for a scene and its map; `traces_rays`: there is a hierarchy for rays. What depends on the
+/// device and on how light is gathered keeps its default.
+FrameConstants constants_of(const Scene& scene, const PhotonMap& map, bool traces_rays);
+
 /// The members with their ids, as pipelines take them.
-std::vector<SpecConstant> listed(const FrameConstants& constants);
-std::vector<SpecConstant> listed(const ViewConstants& constants);
+std::vector<SpecConstant> spec_constants_of(const FrameConstants& constants);
+std::vector<SpecConstant> spec_constants_of(const ViewConstants& constants);
 
 }  // namespace lw

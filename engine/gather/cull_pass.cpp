@@ -100,9 +100,9 @@ void CullPass::make_pipelines() {
     FrameConstants constants = resident_->constants();
     constants.first_listed = first_see_through_;
     constants.pixel_margin = pixel_margin(device);
-    cull_ = make_compute_pipeline(device, *layout_, cull_comp, listed(constants));
-    scan_ = make_compute_pipeline(device, *layout_, scan_comp, listed(constants));
-    compact_ = make_compute_pipeline(device, *layout_, compact_comp, listed(constants));
+    cull_ = make_compute_pipeline(device, *layout_, cull_comp, spec_constants_of(constants));
+    scan_ = make_compute_pipeline(device, *layout_, scan_comp, spec_constants_of(constants));
+    compact_ = make_compute_pipeline(device, *layout_, compact_comp, spec_constants_of(constants));
 }
 
 void CullPass::record(vk::CommandBuffer commands, const Frame& frame) const {

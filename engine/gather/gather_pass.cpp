@@ -32,7 +32,7 @@ FrameConstants constants_for(const Resident& resident, const GatherSettings& set
     constants.has_shadow_rays = has_shadow_rays(settings, constants.has_visible_lamps);
     constants.followed_roughness = followed_roughness(settings);
     constants.has_followed = settings.mode != gather_mode_inspect &&
-                             (resident.min_lobe() < followed_roughness(settings) || constants.looks_through);
+                             (resident.min_lobe() < followed_roughness(settings) || constants.follows_through);
     return constants;
 }
 
@@ -69,13 +69,13 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
         FrameConstants own = constants;
         own.stage = wanted[i].stage;
         own.of_followed = wanted[i].of_followed;
-        *wanted[i].pipeline = make_compute_pipeline(device, *layout_, code, listed(own));
+        *wanted[i].pipeline = make_compute_pipeline(device, *layout_, code, spec_constants_of(own));
     });
     if (!follows) return;
     const bool follows_lobes = followed_roughness(settings) > std::sqrt(min_alpha);  // not mirrors and glass alone
     lobes_ = follows_lobes ? max_lobes : 1;
     has_branch_[branch_reflected] = resident.min_lobe() < followed_roughness(settings);
-    has_branch_[branch_through] = constants.looks_through;
+    has_branch_[branch_through] = constants.follows_through;
 }
 
 void GatherPass::record(vk::CommandBuffer commands, const Frame& frame, const Picture& picture, uint lamps,

@@ -1,5 +1,7 @@
 // Light at what each pixel sees, from the photon map: radiance and illuminance.
 #pragma once
+#include <array>
+
 #include "gather/picture.h"
 #include "gather/resident.h"
 #include "maps/gather_settings.h"

@@ -26,7 +26,7 @@ class LiveView {
     /// Records the gather of one sample into a picture. Sample 0 (frame.sample_index) overwrites the picture, later
     /// ones are added; for a running sum every frame has sample_weight 1. Sample 0, the only one in motion, follows
     /// mirrors and glass alone; sample 1 follows all lobes and takes its place in the sum. `lamps`: the setting of
-    /// Resident::set_light_factors(). Throws Error when the exact mode is asked for too many neighbours.
+    /// Resident::set_lamp_factors(). Throws Error when the exact mode is asked for too many neighbours.
     void record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
                       uint lamps = 0, Rows rows = {});
     /// Records the view pass: writes screen(), which may be copied afterwards, and the readback of frame slot 0 or 1.

@@ -23,16 +23,6 @@ uint chunk_count(uint64_t records, uint shift) {
     return uint(std::max<uint64_t>(1, (records + (1ull << shift) - 1) >> shift));
 }
 
-bool any_material(const Scene& scene, uint flags) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [&](const Material& m) { return (m.flags & flags) != 0; });
-}
-
-bool any_texture(const Scene& scene, TextureSlot Material::*slot) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(),
-                       [=](const Material& m) { return (m.*slot).texture >= 0; });
-}
-
 /// The least roughness of a surface with a specular lobe; 1 without any.
 float min_roughness(const Scene& scene) {
     float least = 1;
@@ -64,10 +54,10 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
         throw Error(scene.path.string() + ": the photon map belongs to another scene");
     check_device(device, scene, map, queries_rays_);
     if (map.has_coverage()) cells_.emplace(scene, map);
-    choose_constants(scene, map, bvh);
-    constants_.has_direct = !bvh.nodes.empty() && !map.settings.direct_in_photons;
-    constants_.has_visible_lamps = map.has_visible_lamps();
-    constants_.has_coverage = map.has_coverage();
+    constants_ = constants_of(scene, map, !bvh.nodes.empty());
+    constants_.chunk_shift = std::min(27u, uint(std::bit_width(max_texels_)) - 1u);
+    constants_.chunks = chunk_count(map.places.size(), constants_.chunk_shift);
+    min_lobe_ = bvh.nodes.empty() ? 1.0f : min_roughness(scene);
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
@@ -255,25 +245,25 @@ void Resident::upload_chunks(uint binding, vk::Format format, std::span<const T>
         for (uint i = count; i < max_chunks; ++i) set.set_texels(binding, *views_.back(), i);  // never read
 }
 
-void Resident::set_light_factors(std::span<const float> factors, uint setting) {
-    set_light_factors(std::vector<vec3>(factors.begin(), factors.end()), setting);
+void Resident::set_lamp_factors(std::span<const float> factors, uint setting) {
+    set_lamp_factors(std::vector<vec3>(factors.begin(), factors.end()), setting);
 }
 
-void Resident::set_light_factors(std::span<const vec3> factors, uint setting) {
+void Resident::set_lamp_factors(std::span<const vec3> factors, uint setting) {
     assert(factors.size() == scene_->lights.size());
     Lamps& lamps = lamps_[setting];
     const bool first = lamps.powers.size() == 0;
     if (!first && std::equal(factors.begin(), factors.end(), lamps.factors.begin())) return;
     if (first) make_lamps(setting);
     lamps.factors.assign(factors.begin(), factors.end());
-    std::vector<LampPower> powers;
-    std::vector<vec3> weights;
+    std::vector<LampPower> records;
+    std::vector<vec3> powers;
     for (size_t i = 0; i < factors.size(); ++i) {
-        weights.push_back(scene_->lights[i].intensity * factors[i]);
-        powers.push_back({vec4(weights[i], 0), vec4(factors[i], 0)});
+        powers.push_back(scene_->lights[i].intensity * factors[i]);
+        records.push_back({vec4(powers[i], 0), vec4(factors[i], 0)});
     }
-    write_cells(lamps, weights);
-    write_bytes(*device_, lamps.powers, powers.data(), powers.size() * sizeof(LampPower));
+    write_cells(lamps, powers);
+    write_bytes(*device_, lamps.powers, records.data(), records.size() * sizeof(LampPower));
 }
 
 void Resident::make_lamps(uint setting) {
@@ -288,10 +278,10 @@ void Resident::make_lamps(uint setting) {
     descriptors_[setting].set_texels(binding_cell_light, *views_.back());
 }
 
-void Resident::write_cells(Lamps& lamps, std::span<const vec3> weights) const {
+void Resident::write_cells(Lamps& lamps, std::span<const vec3> powers) const {
     if (!cells_) return;
     std::vector<uvec4> light;
-    lamps.inverse_irradiance_scale = 1 / cells_->sum(weights, light);
+    lamps.inverse_irradiance_scale = 1 / cells_->sum(powers, light);
     write_bytes(*device_, lamps.cells, light.data(), light.size() * sizeof(uvec4));
 }
 

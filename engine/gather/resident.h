@@ -34,8 +34,8 @@ class Resident {
     /// Dims the lights: one factor per light of the scene, >= 0, or one per channel. Setting 0 or 1: two of them lie on
     /// the device, so that one frame can show both; the second takes memory from its first use on. The same factors
     /// again cost nothing.
-    void set_light_factors(std::span<const float> factors, uint setting = 0);
-    void set_light_factors(std::span<const vec3> factors, uint setting = 0);
+    void set_lamp_factors(std::span<const float> factors, uint setting = 0);
+    void set_lamp_factors(std::span<const vec3> factors, uint setting = 0);
 
     const Scene& scene() const { return *scene_; }
     const DescriptorSet& descriptors(uint setting = 0) const { return descriptors_[setting]; }
@@ -44,7 +44,7 @@ class Resident {
     /// The least roughness of a surface whose lobe could be followed by rays; 1: there is none.
     float min_lobe() const { return min_lobe_; }
     /// True when view paths may go on from what the eye sees.
-    bool may_follow() const { return min_lobe_ < 1 || constants_.looks_through; }
+    bool may_follow() const { return min_lobe_ < 1 || constants_.follows_through; }
     /// True when rays are traced by the device's ray queries.
     bool queries_rays() const { return queries_rays_; }
     uint triangle_count() const { return triangle_count_; }
@@ -57,7 +57,6 @@ class Resident {
     uint64_t ray_bytes() const;  // of these, what rays are found with
 
   private:
-    void choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh);
     void upload_scene(const Scene& scene);
     void upload_corners(const Scene& scene);
     void upload_map(const PhotonMap& map);
@@ -71,7 +70,7 @@ class Resident {
         float inverse_irradiance_scale = 1;
     };
     void make_lamps(uint setting);
-    void write_cells(Lamps& lamps, std::span<const vec3> weights) const;
+    void write_cells(Lamps& lamps, std::span<const vec3> powers) const;
     template <class T>
     void upload_records(uint binding, std::span<const T> values, const std::string& what);
     template <class T>

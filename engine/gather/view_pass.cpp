@@ -39,7 +39,7 @@ vk::Pipeline ViewPass::pipeline_for(const ViewKind& kind, bool is_scaled, bool i
         constants.has_split = kind.has_split && !is_inspection(kind.view) && !is_signed_view(kind.view);
         constants.is_scaled = is_scaled;
         constants.is_readback = is_readback;
-        pipeline = make_compute_pipeline(*device_, *layout_, view_comp, listed(constants));
+        pipeline = make_compute_pipeline(*device_, *layout_, view_comp, spec_constants_of(constants));
     }
     return *pipeline;
 }

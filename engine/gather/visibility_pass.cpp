@@ -29,8 +29,9 @@ VisibilityPass::VisibilityPass(const Device& device, const Resident& resident, v
         FrameConstants constants = resident.constants();
         constants.first_listed = cull_.first_listed(see_through);
         if (!see_through) constants.has_alpha = constants.has_transmission = false;
-        pipelines_[see_through] = make_raster_pipeline(device, *layout_, {visibility_vert, visibility_frag},
-                                                       listed(constants), visible_.format(), depth_.format());
+        pipelines_[see_through] =
+            make_raster_pipeline(device, *layout_, {visibility_vert, visibility_frag}, spec_constants_of(constants),
+                                 visible_.format(), depth_.format());
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cctype>
 #include <optional>
 
@@ -139,7 +140,10 @@ vk::PhysicalDevice choose(const std::vector<vk::PhysicalDevice>& devices, const 
 }  // namespace
 
 Rays rays_named(const std::string& name) {
-    return Rays(std::find(rays_names.begin(), rays_names.end(), name) - rays_names.begin());
+    const auto found =
+        std::find_if(rays_names.begin(), rays_names.end(), [&](const auto& r) { return r.first == name; });
+    assert(found != rays_names.end());
+    return found->second;
 }
 
 Device::Device(const DeviceSettings& settings) {

@@ -17,7 +17,9 @@ enum class Rays {
     queries,
     compute
 };  // fastest: queries on a GPU that has them; compute on a software rasterizer
-inline const std::vector<std::string> rays_names{"fastest", "queries", "compute"};
+/// By their names in options.
+inline const std::vector<std::pair<std::string, Rays>> rays_names{
+    {"fastest", Rays::fastest}, {"queries", Rays::queries}, {"compute", Rays::compute}};
 inline constexpr const char* rays_help =
     "who traces the rays of a picture: compute, queries (VK_KHR_ray_query, an error on a device without), or fastest: "
     "queries on a GPU that has them, else compute";

@@ -135,11 +135,11 @@ bool CellLight::holds(size_t cell, uint lamp) const {
     return (words_[cell * stride_ + marks_ + cell_lamp_word(lamp)] >> cell_lamp_shift(lamp)) & in_cell_light;
 }
 
-float CellLight::sum(std::span<const vec3> weights, std::vector<uvec4>& light) const {
-    assert(weights.size() == lamp_count_);
+float CellLight::sum(std::span<const vec3> powers, std::vector<uvec4>& light) const {
+    assert(powers.size() == lamp_count_);
     const size_t nodes = map_.coverage.size();
     float total = 0;
-    for (const vec3& w : weights) total += std::max({w.x, w.y, w.z});
+    for (const vec3& w : powers) total += std::max({w.x, w.y, w.z});
     const float room = std::min(1.0f, max_direct / (max_direct_ * map_.irradiance_scale));
     const float scale = (total > 0 ? 1 / total : 1.0f) * room, record_scale = scale * map_.irradiance_scale;
     std::vector<vec3> at_nodes(nodes);
@@ -147,9 +147,9 @@ float CellLight::sum(std::span<const vec3> weights, std::vector<uvec4>& light) c
         nodes,
         [&](size_t n) {
             vec3 e(0);
-            for (size_t lamp = 0; lamp < weights.size(); ++lamp)
+            for (size_t lamp = 0; lamp < powers.size(); ++lamp)
                 if (const uint record = map_.irradiance[lamp * nodes + n])
-                    e += unpack_rgb9e5(record) * (weights[lamp] * scale);
+                    e += unpack_rgb9e5(record) * (powers[lamp] * scale);
             at_nodes[n] = e;
         },
         4096);
@@ -162,7 +162,7 @@ float CellLight::sum(std::span<const vec3> weights, std::vector<uvec4>& light) c
             for (size_t i = 0; i < punctual_.size(); ++i)
                 if (holds(node, punctual_[i]))
                     for (size_t c = 0; c < 4; ++c)
-                        e[c] += weights[punctual_[i]] * (record_scale * direct_[i][corners[c]]);
+                        e[c] += powers[punctual_[i]] * (record_scale * direct_[i][corners[c]]);
             for (int c = 0; c < 4; ++c) light[node][c] = pack_rgb9e5(e[size_t(c)]);
         });
     });

@@ -18,8 +18,8 @@ class CellLight {
     const std::vector<uint>& words() const { return words_; }
     /// The masks that cells refer to: lit points (low, high), tint (RGB9E5), nothing.
     const std::vector<uvec4>& masks() const { return masks_; }
-    /// The corners' irradiance, four RGB9E5 per cell of lux x the returned scale; weights: RGB power of each lamp.
-    float sum(std::span<const vec3> weights, std::vector<uvec4>& light) const;
+    /// The corners' irradiance, four RGB9E5 per cell of lux x the returned scale; powers: RGB power of each lamp.
+    float sum(std::span<const vec3> powers, std::vector<uvec4>& light) const;
 
   private:
     bool holds(size_t cell, uint lamp) const;

@@ -29,8 +29,8 @@ struct Uncounted {
 template <class Count>
 class GatherText : public SurfaceReader {
   public:
-    /// `light_powers`: RGB power of each light in its own unit (intensity x dimmer).
-    GatherText(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& light_powers, GatherSettings settings,
+    /// `lamp_powers`: RGB power of each light in its own unit (intensity x dimmer).
+    GatherText(const Scene& scene, const PhotonMap& map, const std::vector<vec3>& lamp_powers, GatherSettings settings,
                const Bvh& bvh = no_shadows())
         : SurfaceReader(scene),
           gather_mode(settings.mode),
@@ -42,11 +42,11 @@ class GatherText : public SurfaceReader {
           map_(map),
           maps_(map, settings.neighbours),
           bvh_(bvh),
-          powers_(&light_powers) {
+          powers_(&lamp_powers) {
         if (map.irradiance.empty()) return;
         const CellLight cells(scene, map);
         cells_ = std::make_shared<const Cells>(Cells{cells.words(), cells.masks()});
-        if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(light_powers, cell_light_);
+        if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(lamp_powers, cell_light_);
     }
 
     /// A copy with the lamps at other powers, which must outlive it. Not for the cached mode, whose cells hold sums
@@ -54,19 +54,19 @@ class GatherText : public SurfaceReader {
     GatherText with_powers(const std::vector<vec3>& light_powers) const {
         assert(gather_mode != gather_mode_cached);
         GatherText other = *this;
-        other.powers_ = &light_powers;
+        other.powers_ = &lamp_powers;
         return other;
     }
 
     PhotonPlace photon_place(uint i) const { return counted(Record::photon), map_.places[i]; }
     uint photon_flux(uint i) const { return counted(Record::flux), map_.fluxes[i]; }
     uint photon_direction(uint i) const { return counted(Record::direction), map_.directions[i]; }
-    vec3 light_power(uint light) const { return (*powers_)[light]; }
+    vec3 lamp_power(uint light) const { return (*powers_)[light]; }
     vec3 lamp_factor(uint light) const {
         const vec3 full = scene_.lights[light].intensity;
         vec3 factor(1);
         for (int c = 0; c < 3; ++c)
-            if (full[c] > 0) factor[c] = light_power(light)[c] / full[c];
+            if (full[c] > 0) factor[c] = lamp_power(light)[c] / full[c];
         return factor;
     }
     Light light_at(uint i) const { return scene_.lights[i]; }
@@ -144,7 +144,7 @@ class GatherText : public SurfaceReader {
     const Emitter* emitters = scene_.emitters.data();
     uint light_count = uint(scene_.lights.size()), bvh_node_count = uint(bvh_.nodes.size());
     float ray_epsilon = scene_.ray_epsilon(), scene_size = scene_.size();
-    bool has_followed = bvh_node_count > 0, looks_through = has_followed;
+    bool has_followed = bvh_node_count > 0, follows_through = has_followed;
     bool has_direct = bvh_node_count > 0 && !map_.settings.direct_in_photons;
 };
 

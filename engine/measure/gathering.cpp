@@ -32,7 +32,7 @@ void PhotonShares::clear() {
     touched.clear();
 }
 
-void Gatherer::add_emission(const Surface& s, vec3 to_view, float weight, Gathering& to) const {
+void Gatherer::add_emission(const Surface& s, vec3 to_view, float weight, GatherRay& to) const {
     to.lamps[size_t(s.light)] += to.throughput * emitters_.radiance(s, to_view) * weight;
 }
 
@@ -59,7 +59,7 @@ void Gatherer::add_lamps(const Seen& at, LampChoice choice, Gathering& to) const
 /// Adds the reflected light of the photons of a grid within `radius` m. `covered`: the coverage of the kernel;
 /// with_meshes = false leaves out the photons of mesh lamps.
 void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
-                           Gathering& to) const {
+                           GatherRay& to) const {
     const float r2 = radius * radius, peak = kernel_peak(r2) * (1 / map_.flux_scale) / covered;
     Surface s = at.surface;
     s.roughness = std::max(s.roughness, min_reflected_roughness);

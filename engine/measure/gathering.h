@@ -68,12 +68,12 @@ class Gatherer {
 
     Seen seen_from(vec3 to_view, const Hit& hit, const Surface& s) const;
     bool is_resolved(const Seen& seen) const;
-    void add_emission(const Surface& s, vec3 to_view, float weight, Gathering& to) const;
-    void add_lamps(const Seen& at, LampChoice choice, Gathering& to) const;
-    void add_reflected(const Seen& at, Gathering& to) const;
-    void add_caustics(const Seen& at, bool with_meshes, Gathering& to) const;
+    void add_emission(const Surface& s, vec3 to_view, float weight, GatherRay& to) const;
+    void add_lamps(const Seen& at, LampChoice choice, GatherRay& to) const;
+    void add_reflected(const Seen& at, GatherRay& to) const;
+    void add_caustics(const Seen& at, bool with_meshes, GatherRay& to) const;
     void add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
-                     Gathering& to) const;
+                     GatherRay& to) const;
 
     const Scene& scene_;
     const RayCaster& caster_;

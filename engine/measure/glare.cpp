@@ -31,7 +31,7 @@ std::string rating_text(double rating) {
 }
 
 std::vector<GlareSource> find_visible_lamps(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                                            std::span<const vec3> weights, uint samples) {
+                                            std::span<const vec3> powers, uint samples) {
     const Emitters emitters(scene);
     const vec3 forward = -camera.rotation[2];
     std::vector<GlareSource> found;
@@ -42,7 +42,7 @@ std::vector<GlareSource> find_visible_lamps(const Scene& scene, const RayCaster&
             const auto in = emitters.arrive(lamp, camera.position, sobol_owen(i, 0, lamp), sobol_owen(i, 1, lamp));
             if (!in || dot(in->to_light, forward) <= 0) continue;
             const vec3 passed = caster.transmittance(camera.position, in->position);
-            const double seen = precise_luminance(in->radiance * passed * weights[lamp]);
+            const double seen = precise_luminance(in->radiance * passed * powers[lamp]);
             if (!(seen > 0)) continue;
             const double part = 1 / (double(in->pdf) * samples);
             source.luminance += seen * part;
@@ -58,8 +58,8 @@ std::vector<GlareSource> find_visible_lamps(const Scene& scene, const RayCaster&
 }
 
 double background_luminance(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                            std::span<const vec3> weights, uint samples) {
-    const PathTracer tracer(scene, caster, {weights.begin(), weights.end()});
+                            std::span<const vec3> powers, uint samples) {
+    const PathTracer tracer(scene, caster, {powers.begin(), powers.end()});
     const Emitters emitters(scene);
     const vec3 forward = -camera.rotation[2];
     std::vector<double> indirect(samples, 0);
@@ -73,7 +73,7 @@ double background_luminance(const Scene& scene, const RayCaster& caster, const C
                 const auto in = emitters.arrive(lamp, camera.position, u, v);
                 if (!in || dot(in->to_light, forward) <= 0) continue;
                 const vec3 passed = caster.transmittance(camera.position, in->position);
-                straight += precise_luminance(in->radiance * passed * weights[lamp]) *
+                straight += precise_luminance(in->radiance * passed * powers[lamp]) *
                             double(dot(in->to_light, forward)) / (in->pdf > 0 ? double(in->pdf) : 1.0);
             }
             indirect[i] = precise_luminance(tracer.irradiance(camera.position, forward, rng)) - straight;

@@ -29,14 +29,14 @@ double unified_glare_rating(double sum_of_glare, double background);
 std::string rating_text(double rating);
 
 /// The emissive meshes visible from the camera's place in the half space before it, also through thin glass; one source
-/// per lamp. Point, spot and directional lamps have no size and are left out. `weights`: RGB power of each lamp;
+/// per lamp. Point, spot and directional lamps have no size and are left out. `powers`: RGB power of each lamp;
 /// `samples`: points tested per lamp.
 std::vector<GlareSource> find_visible_lamps(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                                            std::span<const vec3> weights, uint samples = 1024);
+                                            std::span<const vec3> powers, uint samples = 1024);
 
 /// Background luminance (CIE 117), cd/m2: the illuminance at the eye on the plane that faces forward, without light
 /// straight from the lamps, divided by pi. Path traced with `samples` paths.
 double background_luminance(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                            std::span<const vec3> weights, uint samples = 4096);
+                            std::span<const vec3> powers, uint samples = 4096);
 
 }  // namespace lw

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double max_sensors = 1e6;
 
-std::vector<std::string> words_of(const std::string& text) {
+std::vector<std::string> tokens_of(const std::string& text) {
     std::istringstream stream(text);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word);
-    return words;
+    std::vector<std::string> tokens;
+    for (std::string token; stream >> token;) tokens.push_back(token);
+    return tokens;
 }
 
 int axis_of(vec3 facing) { return facing.x != 0 ? 0 : facing.y != 0 ? 1 : 2; }
@@ -33,10 +33,11 @@ GridRequest parse_grid(const std::string& text) {
     const size_t colon = text.find(':');
     const std::string name = trimmed(text.substr(0, colon)), where = "--grid \"" + name + "\"";
     if (colon == std::string::npos || name.empty()) throw Error("--grid \"" + text + "\": write NAME: X,Y,Z to X,Y,Z");
-    const std::vector<std::string> words = words_of(text.substr(colon + 1));
-    if (words.size() < 3 || words[1] != "to") throw Error(where + ": write NAME: X,Y,Z to X,Y,Z");
-    const glm::dvec3 a = parse_point(words[0], where), b = parse_point(words[2], where);
-    auto pairs = parse_pairs({words.begin() + 3, words.end()}, {"facing", "margin", "spacing", "kind", "task"}, where);
+    const std::vector<std::string> tokens = tokens_of(text.substr(colon + 1));
+    if (tokens.size() < 3 || tokens[1] != "to") throw Error(where + ": write NAME: X,Y,Z to X,Y,Z");
+    const glm::dvec3 a = parse_point(tokens[0], where), b = parse_point(tokens[2], where);
+    auto pairs =
+        parse_pairs({tokens.begin() + 3, tokens.end()}, {"facing", "margin", "spacing", "kind", "task"}, where);
     GridRequest grid{name, glm::min(a, b), glm::max(a, b), {0, 1, 0}, 0, 0, Response::planar, pairs["task"]};
     if (pairs.contains("facing")) grid.facing = parse_axis(pairs["facing"], where);
     if (pairs.contains("margin")) grid.margin = parse_number(pairs["margin"], where + ": margin");

@@ -92,7 +92,7 @@ void LightMeter::add_repetition(const Sensor& sensor, uint64_t stream, uint r, c
         const SensedDirection to = sample_direction(sensor, sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble),
                                                     sobol_owen(i, 2, scramble));
         std::fill(ray.begin(), ray.end(), vec3(0));
-        Gathering gathering{vec3(to.lux_per_radiance), ray, shares, rng};
+        GatherRay gathering{vec3(to.lux_per_radiance), ray, shares, rng};
         gatherer_.gather(sensor.position, to.direction, gathering);
         for (uint lamp = 0; lamp < count; ++lamp) {
             sum[lamp] += ray[lamp];

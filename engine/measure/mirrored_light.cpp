@@ -37,7 +37,7 @@ void MirrorTracer::add_lamps(const Surface& s, vec3 n, vec3 to_view, vec3 part, 
         if (!in || dot(in->to_light, n) <= 0) continue;
         const vec3 f = surfaces_.eval_brdf(s, n, to_view, in->to_light, false);
         if (!(largest(f) > 0)) continue;
-        vec3 seen = part * f * in->radiance * weights_[lamp] * dot(in->to_light, n);
+        vec3 seen = part * f * in->radiance * powers_[lamp] * dot(in->to_light, n);
         if (in->pdf > 0) seen *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, s, to_view, in->to_light)) / in->pdf;
         if (precise_luminance(seen) > 0)
             light[{lamp, object}] += precise_luminance(
@@ -68,7 +68,7 @@ void MirrorTracer::reflect(const Surface& first, uint object, vec3 to_view, vec3
             s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
             distance += hit->distance;
             if (s.light >= 0) {
-                const vec3 seen = part * emitters_.radiance(s, -next->direction) * weights_[size_t(s.light)];
+                const vec3 seen = part * emitters_.radiance(s, -next->direction) * powers_[size_t(s.light)];
                 const float pdf = next->specular ? 0 : next->pdf;
                 const float chosen =
                     pdf > 0 ? power_heuristic(pdf, emitters_.arrive_pdf(s, distance, next->direction)) : 1;

@@ -16,8 +16,8 @@ using MirroredLight = std::map<std::pair<uint, uint>, double>;
 /// Follows view rays. All references must outlive it. Thread-safe.
 class MirrorTracer {
   public:
-    MirrorTracer(const Scene& scene, const RayCaster& caster, std::span<const vec3> weights)
-        : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), weights_(weights) {}
+    MirrorTracer(const Scene& scene, const RayCaster& caster, std::span<const vec3> powers)
+        : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), powers_(powers) {}
 
     /// Traces a view ray and adds `share` times the mirrored light of what it meets: of every sheet of thin glass on
     /// its way and of the first other surface.
@@ -32,7 +32,7 @@ class MirrorTracer {
     const RayCaster& caster_;
     SurfaceReader surfaces_;
     Emitters emitters_;
-    std::span<const vec3> weights_;
+    std::span<const vec3> powers_;
 };
 
 }  // namespace lw

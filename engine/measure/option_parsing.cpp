@@ -74,18 +74,18 @@ Response parse_response(const std::string& text, const std::string& where) {
     throw Error(where + ": \"" + text + "\" is not a kind of sensor; write planar or cylindrical");
 }
 
-std::map<std::string, std::string> parse_pairs(const std::vector<std::string>& words,
+std::map<std::string, std::string> parse_pairs(const std::vector<std::string>& tokens,
                                                const std::vector<std::string>& known, const std::string& where) {
     std::map<std::string, std::string> pairs;
-    for (const std::string& word : words) {
-        const size_t equals = word.find('=');
-        const std::string key = word.substr(0, equals);
+    for (const std::string& token : tokens) {
+        const size_t equals = token.find('=');
+        const std::string key = token.substr(0, equals);
         if (equals == std::string::npos || std::find(known.begin(), known.end(), key) == known.end()) {
             std::string list;
             for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name + "=";
-            throw Error(where + ": \"" + word + "\" is none of " + list);
+            throw Error(where + ": \"" + token + "\" is none of " + list);
         }
-        if (!pairs.emplace(key, word.substr(equals + 1)).second) throw Error(where + ": " + key + "= is given twice");
+        if (!pairs.emplace(key, token.substr(equals + 1)).second) throw Error(where + ": " + key + "= is given twice");
     }
     return pairs;
 }

@@ -26,8 +26,8 @@ vec3 parse_axis(const std::string& text, const std::string& where);
 
 Response parse_response(const std::string& text, const std::string& where);
 
-/// Parses words "KEY=VALUE" to a map. Throws Error for a key that is not in `known` or is given twice.
-std::map<std::string, std::string> parse_pairs(const std::vector<std::string>& words,
+/// Parses tokens "KEY=VALUE" to a map. Throws Error for a key that is not in `known` or is given twice.
+std::map<std::string, std::string> parse_pairs(const std::vector<std::string>& tokens,
                                                const std::vector<std::string>& known, const std::string& where);
 
 }  // namespace lw

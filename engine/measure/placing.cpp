@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "scene/triangle.h"
 #include "trace/sampling.h"
 
 namespace lw {

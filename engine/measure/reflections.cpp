@@ -43,9 +43,9 @@ struct View {
     }
 };
 
-std::vector<MirroredLight> mirrored_light(const Scene& scene, const RayCaster& caster, std::span<const vec3> weights,
+std::vector<MirroredLight> mirrored_light(const Scene& scene, const RayCaster& caster, std::span<const vec3> powers,
                                           const View& view, const ReflectionSettings& settings) {
-    const MirrorTracer tracer(scene, caster, weights);
+    const MirrorTracer tracer(scene, caster, powers);
     std::vector<MirroredLight> light(view.size());
     parallel_for(
         view.size(),
@@ -156,12 +156,12 @@ void measure(Reflection& patch, const std::vector<MirroredLight>& light, const V
 }  // namespace
 
 ReflectionReport find_reflections(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                                  std::span<const vec3> weights, const ReflectionSettings& settings) {
+                                  std::span<const vec3> powers, const ReflectionSettings& settings) {
     const View view{camera, settings.width, settings.height};
-    const std::vector<MirroredLight> light = mirrored_light(scene, caster, weights, view, settings);
+    const std::vector<MirroredLight> light = mirrored_light(scene, caster, powers, view, settings);
     std::vector<Reflection> patches = grow_patches(light, view, settings.limits.luminance);
     const std::vector<char> taken = taken_pixels(scene, caster, view, patches);
-    const PathTracer tracer(scene, caster, {weights.begin(), weights.end()});
+    const PathTracer tracer(scene, caster, {powers.begin(), powers.end()});
     parallel_for(patches.size(), [&](size_t i) {
         patches[i].surroundings = mean_luminance(tracer, view, surroundings_of(patches[i], taken, view), settings.seed);
         measure(patches[i], light, view);
@@ -173,9 +173,9 @@ ReflectionReport find_reflections(const Scene& scene, const RayCaster& caster, c
                      [](const Reflection& a, const Reflection& b) { return a.glare > b.glare; });
 
     ReflectionReport report{settings.width, settings.height, std::move(patches), 0, 0, 0};
-    report.background = background_luminance(scene, caster, camera, weights);
+    report.background = background_luminance(scene, caster, camera, powers);
     double glare = 0;
-    for (const GlareSource& lamp : find_visible_lamps(scene, caster, camera, weights))
+    for (const GlareSource& lamp : find_visible_lamps(scene, caster, camera, powers))
         glare += glare_of(lamp, -camera.rotation[2], camera.rotation[1]);
     report.ugr_lamps = unified_glare_rating(glare, report.background);
     for (const Reflection& r : report.found) glare += r.glare;

@@ -50,7 +50,7 @@ struct ReflectionReport {
 /// Looks for reflections of emissive lamps, and of point and spot lamps in rough gloss, by way of up to four surfaces,
 /// through thin glass too. Mirror images of point lamps have no size and are not found. Deterministic.
 ReflectionReport find_reflections(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                                  std::span<const vec3> weights, const ReflectionSettings& settings);
+                                  std::span<const vec3> powers, const ReflectionSettings& settings);
 
 /// "window mirrors desk_2: 8400 cd/m2, 14x its surroundings".
 std::string describe(const Scene& scene, const Reflection& reflection);

@@ -44,7 +44,7 @@ std::string verdict_cells(const MeasuredSet& measured, const Statistics& s) {
            cell("<span class=" + verdict + ">" + verdict + "</span>");
 }
 
-std::string table_of_fields(const Survey& survey, const PowerSetting& ambiance) {
+std::string table_of_fields(const Survey& survey, const AmbianceFactors& ambiance) {
     std::string text =
         "<table><tr><th>field<th>points<th>E<sub>avg</sub> lx<th>E<sub>min</sub><th>E<sub>max</sub><th>U<sub>0</sub>"
         "<th>U<sub>d</sub><th>doubtful<th>task<th>EN 12464-1<th>result</tr>\n";
@@ -66,7 +66,7 @@ std::string power_text(vec3 factor) {
 }
 
 /// A table of the mean lux that each lamp brings to each field.
-std::string table_of_lamps(const Survey& survey, const Scene& scene, const PowerSetting& ambiance) {
+std::string table_of_lamps(const Survey& survey, const Scene& scene, const AmbianceFactors& ambiance) {
     std::string text = "<table><tr><th>lamp<th>power";
     for (const MeasuredSet& measured : survey.sets) text += "<th>" + escaped(measured.set.name) + " lx";
     text += "</tr>\n";
@@ -98,7 +98,7 @@ std::string table_of_points(const MeasuredSet& measured, const std::vector<Value
 /// The lowest and highest lux of the colour scale of a field, common to all ambiances.
 std::pair<double, double> range_of(const MeasuredSet& measured, const Survey& survey) {
     double low = 1e30, high = 0;
-    for (const PowerSetting& ambiance : survey.ambiances)
+    for (const AmbianceFactors& ambiance : survey.ambiances)
         for (const Value& value : values_of(measured, ambiance, survey.maintenance))
             low = std::min(low, value.lux), high = std::max(high, value.lux);
     high = std::max(high, 1e-6);
@@ -119,7 +119,7 @@ std::string note_of(const SensorSet& set, const Scene& scene) {
 }
 
 /// A table of the values that should not be trusted, with the reason.
-std::string table_of_doubts(const Survey& survey, const PowerSetting& ambiance) {
+std::string table_of_doubts(const Survey& survey, const AmbianceFactors& ambiance) {
     constexpr size_t most = 20;
     std::string rows;
     size_t count = 0;
@@ -140,7 +140,7 @@ std::string table_of_doubts(const Survey& survey, const PowerSetting& ambiance) 
 /// A table of how many intervals hold the path-traced value.
 std::string table_of_agreement(const Survey& survey) {
     if (survey.sets.empty() || survey.sets[0].traced.empty()) return "";
-    const PowerSetting& ambiance = survey.ambiances[0];
+    const AmbianceFactors& ambiance = survey.ambiances[0];
     std::string text =
         "<h3>Compared with path tracing</h3>\n<table><tr><th>field<th>sensors<th>intervals that hold"
         "<th>mean difference</tr>\n";
@@ -152,7 +152,8 @@ std::string table_of_agreement(const Survey& survey) {
     return text + "</table>\n";
 }
 
-std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const PowerSetting& ambiance) {
+std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster& caster,
+                      const AmbianceFactors& ambiance) {
     std::string text;
     for (const MeasuredSet& measured : survey.sets) {
         const std::vector<Value> values = values_of(measured, ambiance, survey.maintenance);
@@ -167,8 +168,8 @@ std::string fields_of(const Survey& survey, const Scene& scene, const RayCaster&
     return text;
 }
 
-std::string pictures_of(const Survey& survey, const Scene& scene, const RayCaster& caster, const PowerSetting& ambiance,
-                        const std::vector<std::string>& cameras) {
+std::string pictures_of(const Survey& survey, const Scene& scene, const RayCaster& caster,
+                        const AmbianceFactors& ambiance, const std::vector<std::string>& cameras) {
     std::string text;
     for (const std::string& name : cameras) {
         std::vector<double> lux = seen_illuminance(scene, caster, survey.map, find_camera(scene, name), ambiance,
@@ -201,7 +202,7 @@ std::string report_as_html(const Survey& survey, const Scene& scene, const RayCa
         "and not counted. Plans show the model below the grid; metres, Y up.</p>\n",
         1e-6 * double(survey.map.stored_photons), double(survey.maintenance));
     for (const std::string& warning : survey.warnings) text += "<p class=warning>" + escaped(warning) + "</p>\n";
-    for (const PowerSetting& ambiance : survey.ambiances) {
+    for (const AmbianceFactors& ambiance : survey.ambiances) {
         text += "<h2>Ambiance " + escaped(ambiance.name) + "</h2>\n" + table_of_fields(survey, ambiance);
         text += fields_of(survey, scene, caster, ambiance);
         text += pictures_of(survey, scene, caster, ambiance, cameras);

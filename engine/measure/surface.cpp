@@ -34,9 +34,9 @@ SurfaceRequest parse_surface(const std::string& text, const Scene& scene) {
     request.object = trimmed(text.substr(0, colon));
     const std::string where = "--surface \"" + request.object + "\"";
     std::istringstream stream(text.substr(colon + 1));
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word);
-    auto pairs = parse_pairs(words, {"facing", "count", "task"}, where);
+    std::vector<std::string> tokens;
+    for (std::string token; stream >> token;) tokens.push_back(token);
+    auto pairs = parse_pairs(tokens, {"facing", "count", "task"}, where);
     request.task = pairs["task"];
     if (pairs.contains("facing")) request.facing = parse_axis(pairs["facing"], where);
     const double count = pairs.contains("count") ? parse_number(pairs["count"], where + ": count") : default_count;

@@ -12,7 +12,7 @@
 #include "measure/placing.h"
 #include "measure/probe.h"
 #include "scene/ambiance.h"
-#include "scene/camera.h"
+#include "scene/lamp_factors.h"
 #include "trace/build_bvh.h"
 #include "trace/emitter.h"
 
@@ -36,7 +36,7 @@ struct Errors {
 
 Errors errors_of(const Reading& reading, const Survey& survey) {
     Errors worst;
-    for (const PowerSetting& ambiance : survey.ambiances) {
+    for (const AmbianceFactors& ambiance : survey.ambiances) {
         const Value value = value_of(reading, ambiance.factors, survey.maintenance);
         if (value.lux < min_lux || reading.blocked) continue;
         worst.rays = std::max(worst.rays, 1.9 * value.ray_error / value.lux);
@@ -143,18 +143,18 @@ bool has_sensor_in_the_air(const Scene& scene, const RayCaster& caster, const Su
 
 }  // namespace
 
-PowerSetting parse_ambiance(const std::string& text, const Scene& scene) {
+AmbianceFactors parse_ambiance(const std::string& text, const Scene& scene) {
     const size_t colon = text.find(':');
     const std::string name = trimmed(text.substr(0, colon));
     if (colon == std::string::npos && !name.empty()) return {name, chosen_factors(scene, name, {})};
     if (name.empty()) throw Error("--ambiance \"" + text + "\": write NAME, or NAME: LAMP=FACTOR[@KELVIN], ...");
     std::vector<std::string> powers = split(text.substr(colon + 1), ',');
     std::erase(powers, "");
-    return {name, parse_powers(scene, powers)};
+    return {name, parse_factors(scene, powers)};
 }
 
 Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
-                   std::vector<PowerSetting> ambiances, const SurveySettings& settings) {
+                   std::vector<AmbianceFactors> ambiances, const SurveySettings& settings) {
     Survey survey;
     for (SensorSet& set : sets) {
         if (!set.task.empty()) find_task(set.task);
@@ -196,8 +196,8 @@ void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey) {
     const Probe probe(scene, caster, survey.map, bvh);
     const auto maintenance = double(survey.maintenance);
     for (size_t a = 0; a < survey.ambiances.size(); ++a) {
-        const std::vector<vec3> weights = light_powers(scene, survey.ambiances[a].factors);
-        const std::vector<Measurement> read = probe.measure(weights, places);
+        const std::vector<vec3> powers = lamp_powers(scene, survey.ambiances[a].factors);
+        const std::vector<Measurement> read = probe.measure(powers, places);
         for (size_t i = 0; i < read.size(); ++i)
             survey.sets[sensors[i].set].pins[a][sensors[i].sensor] = {maintenance * double(read[i].lux),
                                                                       maintenance * double(read[i].half_width_lux)};
@@ -205,9 +205,9 @@ void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey) {
 }
 
 void trace_survey(const Scene& scene, const RayCaster& caster, uint64_t paths, uint64_t seed, Survey& survey) {
-    const std::vector<vec3> weights = light_powers(scene, survey.ambiances[0].factors);
+    const std::vector<vec3> powers = lamp_powers(scene, survey.ambiances[0].factors);
     for (MeasuredSet& measured : survey.sets)
-        measured.traced = trace_sensors(scene, caster, weights, measured.set.sensors, {paths, seed});
+        measured.traced = trace_sensors(scene, caster, powers, measured.set.sensors, {paths, seed});
 }
 
 bool agrees(const Value& value, const Traced& traced, float maintenance) {
@@ -215,7 +215,7 @@ bool agrees(const Value& value, const Traced& traced, float maintenance) {
     return std::abs(value.lux - truth) <= std::hypot(value.half_width, 1.645 * error);
 }
 
-Agreement agreement_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance) {
+Agreement agreement_of(const MeasuredSet& measured, const AmbianceFactors& ambiance, float maintenance) {
     const std::vector<Value> values = values_of(measured, ambiance, maintenance);
     Agreement result;
     for (size_t i = 0; i < measured.traced.size(); ++i) {
@@ -229,12 +229,12 @@ Agreement agreement_of(const MeasuredSet& measured, const PowerSetting& ambiance
     return result;
 }
 
-Statistics statistics_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance) {
+Statistics statistics_of(const MeasuredSet& measured, const AmbianceFactors& ambiance, float maintenance) {
     return statistics_of(measured.readings, values_of(measured, ambiance, maintenance),
                          measured.set.kind == SensorSet::Kind::surface);
 }
 
-std::vector<Value> values_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance) {
+std::vector<Value> values_of(const MeasuredSet& measured, const AmbianceFactors& ambiance, float maintenance) {
     std::vector<Value> values;
     for (const Reading& reading : measured.readings) values.push_back(value_of(reading, ambiance.factors, maintenance));
     return values;

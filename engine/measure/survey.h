@@ -10,14 +10,14 @@
 namespace lw {
 
 /// An ambiance of the survey.
-struct PowerSetting {
+struct AmbianceFactors {
     std::string name;
     std::vector<vec3> factors;  // RGB per lamp, times its power in the file
 };
 
 /// Parses "NAME", one of the scene's ambiances, or "NAME: LAMP=FACTOR[@KELVIN], ...", where lamps not named have factor
 /// 1. Throws Error for an unknown name or lamp.
-PowerSetting parse_ambiance(const std::string& text, const Scene& scene);
+AmbianceFactors parse_ambiance(const std::string& text, const Scene& scene);
 
 struct MeasuredSet {
     SensorSet set;
@@ -38,7 +38,7 @@ struct SurveySettings {
 
 struct Survey {
     std::vector<MeasuredSet> sets;
-    std::vector<PowerSetting> ambiances;
+    std::vector<AmbianceFactors> ambiances;
     float maintenance = 1;
     PhotonMap map;         // the map of the last readings
     uint64_t bakes = 0;    // maps made to reach the error
@@ -51,7 +51,7 @@ struct Survey {
 /// enough. With settings.error the scene is then baked again with more photons, at the map's other settings, until all
 /// errors are. Sensors below 1 lx and blocked ones may keep a larger error. Throws Error when interrupted.
 Survey make_survey(const Scene& scene, const RayCaster& caster, PhotonMap map, std::vector<SensorSet> sets,
-                   std::vector<PowerSetting> ambiances, const SurveySettings& settings);
+                   std::vector<AmbianceFactors> ambiances, const SurveySettings& settings);
 
 /// Fills MeasuredSet::pins: for each planar sensor that lies on a surface, the value that a pin of the walkthrough
 /// shows there. It is estimated from the photons on that surface itself (measure/probe.h), so it is an independent
@@ -63,10 +63,10 @@ void add_pins(const Scene& scene, const RayCaster& caster, Survey& survey);
 void trace_survey(const Scene& scene, const RayCaster& caster, uint64_t paths, uint64_t seed, Survey& survey);
 
 /// The statistics of one set in one ambiance.
-Statistics statistics_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance);
+Statistics statistics_of(const MeasuredSet& measured, const AmbianceFactors& ambiance, float maintenance);
 
 /// The values of one set in one ambiance, one per sensor.
-std::vector<Value> values_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance);
+std::vector<Value> values_of(const MeasuredSet& measured, const AmbianceFactors& ambiance, float maintenance);
 
 /// How well the values of a set agree with the path tracer.
 struct Agreement {
@@ -74,7 +74,7 @@ struct Agreement {
     size_t inside = 0;      // of these, sensors whose difference lies within its 90 % interval
     double difference = 0;  // mean of value / traced - 1
 };
-Agreement agreement_of(const MeasuredSet& measured, const PowerSetting& ambiance, float maintenance);
+Agreement agreement_of(const MeasuredSet& measured, const AmbianceFactors& ambiance, float maintenance);
 
 /// True when a value and a path-traced one differ by no more than the 90 % interval of their difference.
 bool agrees(const Value& value, const Traced& traced, float maintenance);

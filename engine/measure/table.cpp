@@ -31,7 +31,7 @@ std::string verdict_of(const MeasuredSet& measured, const Statistics& statistics
 }
 
 std::string row_of(const MeasuredSet& measured, size_t i, size_t a, const Survey& survey, const Scene& scene) {
-    const PowerSetting& ambiance = survey.ambiances[a];
+    const AmbianceFactors& ambiance = survey.ambiances[a];
     const Sensor& sensor = measured.set.sensors[i];
     const Reading& reading = measured.readings[i];
     const Value value = value_of(reading, ambiance.factors, survey.maintenance);
@@ -81,7 +81,7 @@ std::string fields_as_csv(const Survey& survey) {
         "field,task,ambiance,count,blocked,doubtful,Emin,Emin_half_width,Eavg,Eavg_half_width,Emax,Emax_half_width,U0,"
         "U0_half_width,Ud,Ud_half_width,required_lux,required_U0,verdict\n";
     for (const MeasuredSet& measured : survey.sets)
-        for (const PowerSetting& ambiance : survey.ambiances) {
+        for (const AmbianceFactors& ambiance : survey.ambiances) {
             const Statistics s = statistics_of(measured, ambiance, survey.maintenance);
             text += quoted(measured.set.name) + "," + measured.set.task + "," + quoted(ambiance.name) +
                     format(",%zu,%zu,%zu", s.count, s.blocked, s.doubtful);
@@ -97,7 +97,7 @@ std::string fields_as_csv(const Survey& survey) {
 
 std::string agreement_as_text(const Survey& survey) {
     std::string text;
-    const PowerSetting& ambiance = survey.ambiances[0];
+    const AmbianceFactors& ambiance = survey.ambiances[0];
     for (const MeasuredSet& measured : survey.sets) {
         const Agreement a = agreement_of(measured, ambiance, survey.maintenance);
         text += format("%-16s %-12s path traced: %zu of %zu intervals hold, mean difference %+.2f %%\n",
@@ -111,7 +111,7 @@ std::string fields_as_text(const Survey& survey) {
                               "Emin lx", "Emax lx", "U0", "Ud", "task");
     const auto lux = [](Estimate e) { return format("%.4g +- %.2g", e.value, e.half_width); };
     for (const MeasuredSet& measured : survey.sets)
-        for (const PowerSetting& ambiance : survey.ambiances) {
+        for (const AmbianceFactors& ambiance : survey.ambiances) {
             const Statistics s = statistics_of(measured, ambiance, survey.maintenance);
             text += format("%-16s %-12s %6zu %16s %16s %16s %14s %6.2f  %s %s", measured.set.name.c_str(),
                            ambiance.name.c_str(), s.count, lux(s.average).c_str(), lux(s.minimum).c_str(),

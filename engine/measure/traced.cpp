@@ -39,11 +39,11 @@ double sample_at(const PathTracer& tracer, const Sensor& sensor, vec3 place, con
 
 }  // namespace
 
-std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& weights,
+std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& powers,
                                   std::span<const Sensor> sensors, const TraceSettings& settings) {
-    const PathTracer tracer(scene, caster, weights);
+    const PathTracer tracer(scene, caster, powers);
     const SurfaceReader surfaces(scene);
-    const bool with_caustics = has_caustics(scene, weights);
+    const bool with_caustics = has_caustics(scene, powers);
     const uint64_t sets = with_caustics ? sets_of_caustics : 1;
     const uint64_t paths = std::max<uint64_t>((settings.paths + sets - 1) / sets, 1);
     std::vector<Sum> sums(sensors.size()), of_sets(sensors.size());
@@ -52,7 +52,7 @@ std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, c
         std::optional<Caustics> caustics;
         if (with_caustics) {
             const float radius = caustic_radius * scene.size() / std::sqrt(float(set + 1));
-            caustics.emplace(scene, caster, weights, CausticSettings{paths_per_set, radius, settings.seed, set});
+            caustics.emplace(scene, caster, powers, CausticSettings{paths_per_set, radius, settings.seed, set});
         }
         parallel_for(sensors.size(), [&](size_t i) {
             const Sensor sensor = lifted(surfaces, caster, sensors[i]);

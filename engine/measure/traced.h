@@ -20,9 +20,9 @@ struct TraceSettings {
     uint64_t seed = 1;
 };
 
-/// Path traces the illuminance at each sensor. `weights`: RGB power of each lamp (light_powers()). Sensors that lie on
+/// Path traces the illuminance at each sensor. `powers`: RGB power of each lamp (lamp_powers()). Sensors that lie on
 /// surfaces are moved 1 mm off them, as in read_sensors().
-std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& weights,
+std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& powers,
                                   std::span<const Sensor> sensors, const TraceSettings& settings);
 
 }  // namespace lw

@@ -52,10 +52,10 @@ Rgb8Image plan_view(const Scene& scene, const RayCaster& caster, const SensorSet
 }
 
 std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
-                                     const Camera& camera, const PowerSetting& ambiance, int width, int height) {
-    const std::vector<vec3> weights = light_powers(scene, ambiance.factors);
+                                     const Camera& camera, const AmbianceFactors& ambiance, int width, int height) {
+    const std::vector<vec3> powers = lamp_powers(scene, ambiance.factors);
     const Bvh bvh = build_bvh(scene);
-    const PhotonEstimator estimator(scene, map, weights, {}, bvh);
+    const PhotonEstimator estimator(scene, map, powers, {}, bvh);
     std::vector<double> lux(size_t(width) * size_t(height), 0);
     parallel_for(size_t(height), [&](size_t y) {
         for (int x = 0; x < width; ++x) {

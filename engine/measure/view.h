@@ -15,7 +15,7 @@ Rgb8Image plan_view(const Scene& scene, const RayCaster& caster, const SensorSet
 /// The illuminance at what each pixel of a camera shows, from photons and shadow rays: width x height values in lux,
 /// row by row, 0 where the pixel shows nothing.
 std::vector<double> seen_illuminance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
-                                     const Camera& camera, const PowerSetting& ambiance, int width, int height);
+                                     const Camera& camera, const AmbianceFactors& ambiance, int width, int height);
 
 /// The lowest and highest lux of the colour scale for such a picture: without the darkest and the brightest hundredth
 /// of the pixels that show something, and three decades wide at most.

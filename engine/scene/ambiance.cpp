@@ -1,13 +1,9 @@
 #include "scene/ambiance.h"
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "scene/camera.h"
 #include "scene/json_file.h"
-#include "scene/profile.h"
 
 namespace lw {
 namespace {
@@ -80,29 +76,29 @@ std::filesystem::path default_ambiances_path(const std::filesystem::path& scene)
     return json_beside(scene, "ambiances");
 }
 
-LampBook load_lamp_book(const std::filesystem::path& path) {
+LampPresets load_lamp_presets(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return {};
     const Json file = read_json(path);
     const std::string where = path.string();
     if (!file.is_object()) fail(where, "must be an object with ambiances and groups");
-    LampBook book;
+    LampPresets presets;
     each_entry(file, "ambiances", where, [&](const std::string& name, const Json& value) {
-        book.ambiances[name] = ambiance_from(value, where + ": ambiance \"" + name + "\"");
+        presets.ambiances[name] = ambiance_from(value, where + ": ambiance \"" + name + "\"");
     });
     each_entry(file, "groups", where, [&](const std::string& name, const Json& value) {
-        book.groups[name] = group_from(value, where + ": group \"" + name + "\"");
+        presets.groups[name] = group_from(value, where + ": group \"" + name + "\"");
     });
     each_entry(file, "photometry", where, [&](const std::string& name, const Json& value) {
         if (!value.is_string()) fail(where, "photometry: lamp \"" + name + "\": must be the name of a file");
-        book.photometry[name] = value.get<std::string>();
+        presets.photometry[name] = value.get<std::string>();
     });
-    return book;
+    return presets;
 }
 
-void save_lamp_book(const std::filesystem::path& path, const LampBook& book) {
+void save_lamp_presets(const std::filesystem::path& path, const LampPresets& presets) {
     Json file = {{"ambiances", Json::object()}, {"groups", Json::object()}};
-    for (const auto& [name, ambiance] : book.ambiances) {
+    for (const auto& [name, ambiance] : presets.ambiances) {
         Json& lamps = file["ambiances"][name] = Json::object();
         for (const auto& [lamp, s] : ambiance) {
             lamps[lamp] = s.factor;
@@ -112,50 +108,9 @@ void save_lamp_book(const std::filesystem::path& path, const LampBook& book) {
             if (s.kelvin != 0) lamps[lamp]["kelvin"] = s.kelvin;
         }
     }
-    for (const auto& [name, lamps] : book.groups) file["groups"][name] = lamps;
-    if (!book.photometry.empty()) file["photometry"] = book.photometry;
+    for (const auto& [name, lamps] : presets.groups) file["groups"][name] = lamps;
+    if (!presets.photometry.empty()) file["photometry"] = presets.photometry;
     write_json(path, file);
-}
-
-vec3 factor_of(const LampSetting& setting, vec3 intensity) {
-    const vec3 factor = setting.factor * setting.color;
-    return setting.kelvin > 0 ? factor * filter_to_temperature(intensity, double(setting.kelvin)) : factor;
-}
-
-std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance) {
-    std::vector<vec3> factors(scene.lights.size(), vec3(1));
-    for (const auto& [lamp, setting] : ambiance) {
-        const auto found = std::find(scene.light_names.begin(), scene.light_names.end(), lamp);
-        if (found == scene.light_names.end()) {
-            std::string names;
-            for (const std::string& name : scene.light_names) names += (names.empty() ? "" : ", ") + name;
-            throw Error(scene.path.string() + ": no lamp \"" + lamp +
-                        "\", which an ambiance names; there are: " + names);
-        }
-        const auto i = size_t(found - scene.light_names.begin());
-        try {
-            factors[i] = factor_of(setting, scene.lights[i].intensity);
-        } catch (const Error& e) {
-            fail(scene.path.string() + ": lamp \"" + lamp + "\" of an ambiance", e.what());
-        }
-    }
-    return factors;
-}
-
-std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, const std::vector<std::string>& powers) {
-    std::vector<vec3> factors = parse_powers(scene, powers);
-    if (name.empty()) return factors;
-    const std::filesystem::path path = default_ambiances_path(scene.path);
-    const LampBook book = load_lamp_book(path);
-    const auto found = book.ambiances.find(name);
-    if (found == book.ambiances.end()) {
-        std::string names;
-        for (const auto& [other, lamps] : book.ambiances) names += (names.empty() ? "" : ", ") + other;
-        throw Error(path.string() + ": no ambiance \"" + name + "\"; there are: " + (names.empty() ? "none" : names));
-    }
-    const std::vector<vec3> chosen = light_factors(scene, found->second);
-    for (size_t i = 0; i < factors.size(); ++i) factors[i] *= chosen[i];
-    return factors;
 }
 
 }  // namespace lw

@@ -25,7 +25,7 @@ struct LampSetting {
 
 using Ambiance = std::map<std::string, LampSetting>;  // by the lamp's name
 
-struct LampBook {
+struct LampPresets {
     std::map<std::string, Ambiance> ambiances;
     std::map<std::string, std::vector<std::string>> groups;  // names of lamps
     std::map<std::string, std::string> photometry;           // lamp -> file, relative to the folder of the scene
@@ -34,24 +34,11 @@ struct LampBook {
 /// The default file of a scene's ambiances: SCENE.ambiances.json beside SCENE.glb.
 std::filesystem::path default_ambiances_path(const std::filesystem::path& scene);
 
-/// Reads the file; the book is empty when there is no such file. Throws Error naming file, ambiance and lamp for
+/// Reads the file; the presets is empty when there is no such file. Throws Error naming file, ambiance and lamp for
 /// anything malformed.
-LampBook load_lamp_book(const std::filesystem::path& path);
+LampPresets load_lamp_presets(const std::filesystem::path& path);
 
-/// Writes the book as JSON. Throws Error naming the file when it cannot be written.
-void save_lamp_book(const std::filesystem::path& path, const LampBook& book);
-
-/// The factor, per RGB channel, by which a setting multiplies the intensity of a lamp. `intensity` is the lamp's own,
-/// needed for the colour of a temperature. Throws Error as filter_to_temperature().
-vec3 factor_of(const LampSetting& setting, vec3 intensity);
-
-/// The factors of an ambiance: one RGB per lamp of the scene, 1 for lamps it does not name. Throws Error naming a lamp
-/// that the scene does not have.
-std::vector<vec3> light_factors(const Scene& scene, const Ambiance& ambiance);
-
-/// The factors that a command line asks for, one RGB per lamp: those of the ambiance `name` from the scene's default
-/// file (all 1 when `name` is empty), times those of the "LAMP=FACTOR" texts `powers`. Throws Error listing the
-/// ambiances when there is none of this name, or as light_factors() and parse_powers().
-std::vector<vec3> chosen_factors(const Scene& scene, const std::string& name, const std::vector<std::string>& powers);
+/// Writes the presets as JSON. Throws Error naming the file when it cannot be written.
+void save_lamp_presets(const std::filesystem::path& path, const LampPresets& presets);
 
 }  // namespace lw

@@ -20,9 +20,4 @@ struct CameraRay {
 };
 CameraRay camera_ray(const Camera& camera, float x, float y, int width, int height);
 
-/// Factor per lamp and colour from "NAME=FACTOR" texts, 1 where none is given, or "NAME=FACTOR@KELVIN", which gives the
-/// lamp the colour of a black body too. Throws Error for an unknown lamp, a factor that is not a finite number >= 0, or
-/// a temperature outside 1,000 to 15,000 K.
-std::vector<vec3> parse_powers(const Scene& scene, const std::vector<std::string>& texts);
-
 }  // namespace lw

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "scene/ambiance.h"
 #include "scene/content_hash.h"
-#include "scene/gltf.h"
+#include "scene/lamp_factors.h"
 #include "shaders/color.h"
 
 namespace lw {
@@ -95,26 +95,6 @@ Scene with_photometry(Scene scene, const std::vector<std::string>& texts) {
         scene.files.push_back(file);
     }
     if (!texts.empty()) scene.content_hash = content_hash(scene);
-    return scene;
-}
-
-std::vector<std::string> photometry_texts(const LampBook& book, const std::filesystem::path& scene,
-                                          const std::vector<std::string>& given) {
-    std::vector<std::string> texts;
-    for (const auto& [lamp, file] : book.photometry) {
-        const std::string start = lamp + "=";
-        const auto names_it = [&](const std::string& text) { return text.starts_with(start); };
-        if (std::none_of(given.begin(), given.end(), names_it))
-            texts.push_back(start + (scene.parent_path() / file).string());
-    }
-    texts.insert(texts.end(), given.begin(), given.end());
-    return texts;
-}
-
-Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry) {
-    const LampBook book = load_lamp_book(default_ambiances_path(path));
-    Scene scene = with_photometry(load_gltf(path), photometry_texts(book, path, photometry));
-    scene.files.push_back(default_ambiances_path(path));
     return scene;
 }
 

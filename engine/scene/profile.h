@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "photometry/photometry.h"
-#include "scene/ambiance.h"
 #include "scene/scene.h"
 
 namespace lw {
@@ -25,13 +24,5 @@ vec3 color_of_temperature(double kelvin);
 /// Attaches photometric files to point and spot lamps, as the "LAMP=FILE" texts say, and returns the scene. Throws
 /// Error for an unknown lamp, a mesh lamp or sun, and a bad file.
 Scene with_photometry(Scene scene, const std::vector<std::string>& texts);
-
-/// The "LAMP=FILE" texts for a scene: those of its book, without the lamps that the texts `given` name, then `given`.
-std::vector<std::string> photometry_texts(const LampBook& book, const std::filesystem::path& scene,
-                                          const std::vector<std::string>& given);
-
-/// load_gltf() with the files that SCENE.ambiances.json and the texts put on its lamps: the scene as every program sees
-/// it. Throws Error when that file is malformed, and as with_photometry().
-Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry);
 
 }  // namespace lw

@@ -72,11 +72,11 @@ class CausticPath {
 };
 
 /// The number of paths of each lamp, about `wanted` in all, in proportion to the lamps' flux.
-std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, std::span<const vec3> weights,
+std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, std::span<const vec3> powers,
                                   uint64_t wanted) {
     std::vector<double> flux(scene.lights.size(), 0);
     double sum = 0;
-    for (uint i = 0; i < flux.size(); ++i) sum += flux[i] = precise_luminance(weights[i]) * double(path.unit_flux(i));
+    for (uint i = 0; i < flux.size(); ++i) sum += flux[i] = precise_luminance(powers[i]) * double(path.unit_flux(i));
     std::vector<uint64_t> paths(flux.size(), 0);
     for (size_t i = 0; i < flux.size(); ++i)
         if (flux[i] > 0) paths[i] = 1 + uint64_t(double(wanted) * flux[i] / sum);
@@ -87,17 +87,17 @@ std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, s
 
 bool casts_caustics(const Surface& s) { return is_polished(s); }
 
-bool has_caustics(const Scene& scene, std::span<const vec3> weights) {
+bool has_caustics(const Scene& scene, std::span<const vec3> powers) {
     const auto is_specular = [](const Material& m) {
         const bool varies = m.metallic_roughness_texture.texture >= 0 || m.transmission_texture.texture >= 0;
         const bool smooth = varies || m.roughness * m.roughness < min_alpha;
         return is_polished(m) || (smooth && (m.metallic > 0 || m.specular > 0 || m.transmission > 0));
     };
     if (std::none_of(scene.materials.begin(), scene.materials.end(), is_specular)) return false;
-    return std::any_of(weights.begin(), weights.end(), [](vec3 weight) { return precise_luminance(weight) > 0; });
+    return std::any_of(powers.begin(), powers.end(), [](vec3 weight) { return precise_luminance(weight) > 0; });
 }
 
-Caustics::Caustics(const Scene& scene, const RayCaster& caster, std::span<const vec3> weights,
+Caustics::Caustics(const Scene& scene, const RayCaster& caster, std::span<const vec3> powers,
                    const CausticSettings& settings)
     : radius_(settings.radius) {
     struct Task {
@@ -106,7 +106,7 @@ Caustics::Caustics(const Scene& scene, const RayCaster& caster, std::span<const 
         std::vector<Arrival> arrivals;
     };
     const CausticPath path(scene, caster);
-    const std::vector<uint64_t> paths = share_paths(path, scene, weights, settings.paths);
+    const std::vector<uint64_t> paths = share_paths(path, scene, powers, settings.paths);
     std::vector<Task> tasks;
     for (uint light = 0; light < paths.size(); ++light)
         for (uint64_t i = 0; i < paths[light]; i += paths_per_task)
@@ -114,7 +114,7 @@ Caustics::Caustics(const Scene& scene, const RayCaster& caster, std::span<const 
     const auto scramble = uint32_t(mix64(settings.seed * 0x10001 + settings.set));
     parallel_for(tasks.size(), [&](size_t t) {
         Task& task = tasks[t];
-        const vec3 weight = weights[task.light] / float(task.of);
+        const vec3 weight = powers[task.light] / float(task.of);
         for (uint64_t i = task.first; i < task.last; ++i) {
             Rng rng(settings.seed ^ 0xca05, (settings.set << 14) + task.light, i);
             std::array<float, 5> numbers;

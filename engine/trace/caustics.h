@@ -24,14 +24,14 @@ struct CausticSettings {
 bool casts_caustics(const Surface& s);
 
 /// True when a lamp has power and a material is, or by its textures may be, a mirror, smooth glass, or polished metal
-/// or glass. `weights`: RGB power of each lamp.
-bool has_caustics(const Scene& scene, std::span<const vec3> weights);
+/// or glass. `powers`: RGB power of each lamp.
+bool has_caustics(const Scene& scene, std::span<const vec3> powers);
 
 /// One set of caustic light: the arrivals at surfaces that cast no caustics, of paths that met only such as do.
 class Caustics {
   public:
     /// Traces a set; the result does not depend on the number of threads.
-    Caustics(const Scene& scene, const RayCaster& caster, std::span<const vec3> weights,
+    Caustics(const Scene& scene, const RayCaster& caster, std::span<const vec3> powers,
              const CausticSettings& settings);
 
     /// Irradiance at `point` on the side of unit `normal`, lux per RGB.

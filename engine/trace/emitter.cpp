@@ -208,11 +208,11 @@ float Emitters::arrive_pdf(const Surface& s, float distance, vec3 to_light) cons
     return reader_.light_pdf(scene_.lights[size_t(s.light)], distance, dot(s.geometric_normal, to_light));
 }
 
-std::vector<vec3> light_powers(const Scene& scene, const std::vector<vec3>& factors) {
-    std::vector<vec3> weights;
+std::vector<vec3> lamp_powers(const Scene& scene, const std::vector<vec3>& factors) {
+    std::vector<vec3> powers;
     for (size_t i = 0; i < scene.lights.size(); ++i)
-        weights.push_back(scene.lights[i].intensity * (i < factors.size() ? factors[i] : vec3(1)));
-    return weights;
+        powers.push_back(scene.lights[i].intensity * (i < factors.size() ? factors[i] : vec3(1)));
+    return powers;
 }
 
 }  // namespace lw

@@ -72,6 +72,6 @@ class Emitters {
 };
 
 /// RGB power of each lamp: intensity x factor, per channel. `factors` empty means all 1.
-std::vector<vec3> light_powers(const Scene& scene, const std::vector<vec3>& factors);
+std::vector<vec3> lamp_powers(const Scene& scene, const std::vector<vec3>& factors);
 
 }  // namespace lw

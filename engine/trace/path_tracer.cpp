@@ -28,8 +28,8 @@ struct PathTracer::Vertex {
     vec3 to_view, n, ng;
 };
 
-PathTracer::PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> weights)
-    : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), weights_(std::move(weights)) {}
+PathTracer::PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> powers)
+    : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), powers_(std::move(powers)) {}
 
 vec3 PathTracer::direct_from(uint light, const Vertex& at, Rng& rng) const {
     const float u = rng.next(), v = rng.next();
@@ -41,7 +41,7 @@ vec3 PathTracer::direct_from(uint light, const Vertex& at, Rng& rng) const {
     if (f.x + f.y + f.z <= 0) return vec3(0);
     const vec3 start = caster_.offset(at.s.position, side > 0 ? at.ng : -at.ng);
     const vec3 passed = caster_.transmittance(start, in->position);
-    vec3 light_in = weights_[light] * in->radiance * passed * f * std::abs(cosine);
+    vec3 light_in = powers_[light] * in->radiance * passed * f * std::abs(cosine);
     if (in->pdf > 0)
         light_in *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, at.s, at.to_view, in->to_light)) / in->pdf;
     return light_in;
@@ -74,7 +74,7 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, cons
             break;
         }
         if (s.light >= 0 && !(caustics && scattered && by_mirror)) {
-            const vec3 emitted = emitters_.radiance(s, at.to_view) * weights_[size_t(s.light)];
+            const vec3 emitted = emitters_.radiance(s, at.to_view) * powers_[size_t(s.light)];
             const float mis = pdf > 0 ? power_heuristic(pdf, emitters_.arrive_pdf(s, distance, direction)) : 1.0f;
             sum += throughput * emitted * mis;
         }

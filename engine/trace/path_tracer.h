@@ -13,8 +13,8 @@ namespace lw {
 
 class PathTracer {
   public:
-    /// `weights`: RGB power of each lamp (light_powers()). All references must outlive the tracer.
-    PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> weights);
+    /// `powers`: RGB power of each lamp (lamp_powers()). All references must outlive the tracer.
+    PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> powers);
 
     /// One sample of the radiance that arrives at `origin` from unit `direction`, cd/m2 per RGB. Unbiased except for
     /// caustics: without `caustics` those of points and suns are missing; with a set, all are blurred over its radius.
@@ -33,7 +33,7 @@ class PathTracer {
     const RayCaster& caster_;
     SurfaceReader surfaces_;
     Emitters emitters_;
-    std::vector<vec3> weights_;
+    std::vector<vec3> powers_;
 };
 
 }  // namespace lw

@@ -61,7 +61,4 @@ class RayCaster {
     bool has_thin_glass_ = false;  // which shadow rays may pass
 };
 
-/// Closest point of triangle (a, b, c) to p, also for degenerate triangles (Ericson 2005, section 5.1.5).
-vec3 closest_point_on_triangle(vec3 p, vec3 a, vec3 b, vec3 c);
-
 }  // namespace lw

@@ -102,8 +102,8 @@ void check_reference_fits(const ReferenceSettings& settings, uint64_t available)
 }
 
 Reference render_reference(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                           const std::vector<vec3>& weights, const ReferenceSettings& settings) {
-    const PathTracer tracer(scene, caster, weights);
+                           const std::vector<vec3>& powers, const ReferenceSettings& settings) {
+    const PathTracer tracer(scene, caster, powers);
     const SurfaceReader surfaces(scene);
     const size_t count = size_t(settings.width) * size_t(settings.height);
     std::vector<PixelSum> pixels(count);
@@ -124,14 +124,14 @@ Reference render_reference(const Scene& scene, const RayCaster& caster, const Ca
     const auto start = std::chrono::steady_clock::now();
     Progress progress("reference", settings.samples * count);
     Reference result;
-    const bool with_caustics = settings.caustic_paths > 0 && has_caustics(scene, weights);
+    const bool with_caustics = settings.caustic_paths > 0 && has_caustics(scene, powers);
     CausticRadii radii(settings.caustic_radius > 0 ? settings.caustic_radius : 0.004f * scene.size());
     std::optional<Caustics> caustics;
     while (result.samples < settings.samples) {
         const uint64_t most = with_caustics ? 1 : std::max<uint64_t>(1, std::min<uint64_t>(result.samples, 16));
         const uint64_t pass = std::min<uint64_t>(settings.samples - result.samples, most);
         if (with_caustics)
-            caustics.emplace(scene, caster, weights,
+            caustics.emplace(scene, caster, powers,
                              CausticSettings{settings.caustic_paths, radii.next(), settings.seed, result.samples});
         const Caustics* light = caustics ? &*caustics : nullptr;
         parallel_for(size_t(settings.height), [&](size_t row) {

@@ -32,6 +32,6 @@ void check_reference_fits(const ReferenceSettings& settings, uint64_t available)
 
 /// Renders through pixel centres, as the gather does, so that pictures can be compared pixel by pixel.
 Reference render_reference(const Scene& scene, const RayCaster& caster, const Camera& camera,
-                           const std::vector<vec3>& weights, const ReferenceSettings& settings);
+                           const std::vector<vec3>& powers, const ReferenceSettings& settings);
 
 }  // namespace lw

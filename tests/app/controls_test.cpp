@@ -9,7 +9,7 @@ namespace lw {
 namespace {
 
 struct Building {
-    Building() : world(LUMENWALK_SOURCE_DIR "/data/apartment.glb", {}), session(world, "") {}
+    Building() : world(LUMENWALK_SOURCE_DIR "/data/apartment.glb", {}, {}), session(world, "") {}
     World world;
     Session session;
 };
@@ -79,7 +79,7 @@ TEST(Gamepad, ButtonsFlyChangeTheViewHidePanelsJumpAndDim) {
     EXPECT_EQ(b.session.transition->to.eye, b.world.scene.cameras.back().position) << "round to the last";
     b.session.lighting.selected = 2;
     apply_buttons(b.session, {GLFW_GAMEPAD_BUTTON_DPAD_DOWN, GLFW_GAMEPAD_BUTTON_DPAD_DOWN});
-    EXPECT_NEAR(b.session.lighting.board[2].dimmer, 0.9f, 1e-5f);
+    EXPECT_NEAR(b.session.lighting.lamps[2].dimmer, 0.9f, 1e-5f);
 }
 
 TEST(Pointer, PointsAtPixelsOfAFineScreen) {

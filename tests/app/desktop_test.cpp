@@ -14,7 +14,7 @@ double mean_illuminance(const std::string& exr) {
     return sum / double(image.pixel_count());
 }
 
-/// Seconds of processor time that a process has taken.
+/// Seconds of processor time that a process has capture.
 double processor_seconds(pid_t process) {
     std::istringstream words(read_text("/proc/" + std::to_string(process) + "/stat"));
     std::string word;

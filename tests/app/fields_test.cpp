@@ -15,7 +15,7 @@ namespace {
 
 struct Cube {
     Cube()
-        : world(LUMENWALK_SOURCE_DIR "/data/cube.gltf", {}),
+        : world(LUMENWALK_SOURCE_DIR "/data/cube.gltf", {}, {}),
           map(std::make_shared<const PhotonMap>(bake(world.scene, world.caster, {.photons = 20'000}))),
           reader(world.scene, world.caster) {}
 

@@ -1,14 +1,15 @@
 // Photometric files on lamps in the walkthrough: what the panel tells of them, and that they stay with the scene.
 #include "app/session/luminaire.h"
+#include "app/session/saving.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/session/lamp_board.h"
+#include "app/session/lamp_states.h"
 #include "app/session/session.h"
 #include "programs/command.h"
-#include "scene/profile.h"
+#include "scene/load_scene.h"
 
 namespace lw {
 namespace {
@@ -17,7 +18,7 @@ std::string cube() { return LUMENWALK_SOURCE_DIR "/data/cube.gltf"; }
 std::string file_of(const char* name) { return LUMENWALK_SOURCE_DIR "/data/photometry/" + std::string(name); }
 
 TEST(Luminaire, TellsFluxAndShapeOfTheFile) {
-    const World world(cube(), {"lamp=" + file_of("downlight.ies")});
+    const World world(cube(), {}, {"lamp=" + file_of("downlight.ies")});
     ASSERT_EQ(world.luminaires.size(), 1u);
     const Luminaire& luminaire = world.luminaires.at(0);
     EXPECT_NEAR(luminaire.unit_flux, 2 * lw_pi / 9, 0.002f);                   // cos^8
@@ -31,7 +32,7 @@ TEST(Luminaire, TellsFluxAndShapeOfTheFile) {
 }
 
 TEST(Luminaire, ShowsBothPlanesOfALampThatIsNotRound) {
-    const World world(cube(), {"lamp=" + file_of("washer.ldt")});
+    const World world(cube(), {}, {"lamp=" + file_of("washer.ldt")});
     const Light& lamp = world.scene.lights[0];
     EXPECT_GT(share_of_profile(world.scene, lamp, 45, 0), 1.5f * share_of_profile(world.scene, lamp, 45, 180));
     const Luminaire& luminaire = world.luminaires.at(0);
@@ -43,8 +44,8 @@ TEST(Luminaire, StaysWithTheSceneForEveryProgram) {
     const TempFolder folder;
     std::filesystem::copy_file(cube(), folder / "cube.gltf");
     std::filesystem::copy_file(file_of("downlight.ies"), folder / "downlight.ies");
-    const World world(folder / "cube.gltf", {});
-    Session session(world, folder.path());
+    const World world(folder / "cube.gltf", {}, {});
+    Session session = open_session(world, folder.path());
     attach_file(session, 0, "nothing.ies");
     EXPECT_FALSE(session.reload);
     EXPECT_NE(session.notice.text.find("nothing.ies"), std::string::npos);
@@ -54,7 +55,7 @@ TEST(Luminaire, StaysWithTheSceneForEveryProgram) {
     EXPECT_EQ(scene.lights[0].type, light_profile);
     EXPECT_EQ(run("bake", {folder / "cube.gltf", "--photons", "2000"}).exit_code, 0);
     std::string reason;
-    const World with_file(folder / "cube.gltf", photometry_texts(session.lighting.book, folder / "cube.gltf", {}));
+    const World with_file(folder / "cube.gltf", session.lighting.presets, {});
     EXPECT_TRUE(try_load_map(folder / "cube.pmap", with_file.scene, reason)) << reason;
     EXPECT_FALSE(try_load_map(folder / "cube.pmap", world.scene, reason)) << "a map of other lamps";
     attach_file(session, 0, "");
@@ -62,22 +63,22 @@ TEST(Luminaire, StaysWithTheSceneForEveryProgram) {
 }
 
 TEST(Luminaire, AnotherFileOfTheOptionReplacesTheOneKept) {
-    LampBook book;
-    book.photometry = {{"a", "one.ies"}, {"b", "two.ies"}};
-    EXPECT_EQ(photometry_texts(book, "/rooms/hall.glb", {"b=other.ldt"}),
+    LampPresets presets;
+    presets.photometry = {{"a", "one.ies"}, {"b", "two.ies"}};
+    EXPECT_EQ(photometry_texts(presets, "/rooms/hall.glb", {"b=other.ldt"}),
               (std::vector<std::string>{"a=/rooms/one.ies", "b=other.ldt"}));
 }
 
 TEST(Luminaire, TheSameSessionGoesOnInTheBuildingWithOtherLamps) {
-    const World before(cube(), {}), after(cube(), {"lamp=" + file_of("batwing.ies")});
+    const World before(cube(), {}, {}), after(cube(), {}, {"lamp=" + file_of("batwing.ies")});
     Session session(before, "");
     session.walker.eye += vec3(0.3f, 0, 0.2f);
-    session.lighting.board[0].dimmer = 0.4f;
+    session.lighting.lamps[0].dimmer = 0.4f;
     session.viewing.view = view_illuminance;
     const Session next(after, session);
     EXPECT_EQ(&next.world, &after);
     EXPECT_EQ(next.walker.eye, session.walker.eye);
-    EXPECT_EQ(next.lighting.board[0].dimmer, 0.4f);
+    EXPECT_EQ(next.lighting.lamps[0].dimmer, 0.4f);
     EXPECT_EQ(next.viewing.view, view_illuminance);
     EXPECT_FALSE(next.reload);
 }

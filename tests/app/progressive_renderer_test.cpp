@@ -244,7 +244,7 @@ TEST(Adapt, RangesAreRoundAndSignedOnesEven) {
 }
 
 TEST(Adapt, DividesThePictureOnlyAsMuchAsItsTimeAsksAndGetsFinerOnlyWhenStill) {
-    Divisor divisor;
+    DynamicResolution divisor;
     RendererTimes last;
     EXPECT_EQ(divisor.next(0, last, true), 4u) << "no frame has told anything yet";
     last = {0, 700, 0, 1, 0, true};

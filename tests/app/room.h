@@ -10,7 +10,7 @@ namespace lw {
 struct Room {
     explicit Room(const std::string& name = "cornell.gltf", vk::Extent2D pixels = {96, 128}, uint64_t photons = 30'000)
         : size(pixels),
-          world(LUMENWALK_SOURCE_DIR "/data/" + name, {}),
+          world(LUMENWALK_SOURCE_DIR "/data/" + name, {}, {}),
           map(std::make_shared<const PhotonMap>(bake(world.scene, world.caster, {.photons = photons}))),
           device({"llvmpipe", true, {}}),
           renderer(device, world.scene, map, world.bvh) {

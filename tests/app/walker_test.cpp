@@ -12,10 +12,11 @@ namespace lw {
 namespace {
 
 struct Place {
-    explicit Place(Scene made) : scene(std::move(made)), caster(scene), around(scene, caster), body(body_for(scene)) {}
+    explicit Place(Scene made)
+        : scene(std::move(made)), caster(scene), collision(scene, caster), body(body_for(scene)) {}
     Scene scene;
     RayCaster caster;
-    Surroundings around;
+    CollisionMesh collision;
     Body body;
 };
 
@@ -58,14 +59,14 @@ Scene room_with(const std::vector<Box>& boxes) {
 Walker standing_at(const Place& place, vec3 feet, float yaw = 0) {
     Camera camera;
     camera.position = feet + vec3(0, place.body.eye_height, 0);
-    Walker walker = walker_at(camera, place.body, place.around);
+    Walker walker = walker_at(camera, place.body, place.collision);
     walker.yaw = yaw;
     return walker;
 }
 
 Walker walk_ahead(const Place& place, Walker walker, float seconds) {
     for (float t = 0; t < seconds; t += 0.02f)
-        walker = walk(walker, {{0, 0, 1}, {0, 0}, false}, 0.02f, place.body, place.around);
+        walker = walk(walker, {{0, 0, 1}, {0, 0}, false}, 0.02f, place.body, place.collision);
     return walker;
 }
 
@@ -81,7 +82,7 @@ void wander(const Place& place, Walker walker, uint64_t seed, int steps, const C
         if (rng.next() < 0.02f) ahead = rng.next() * 2 - 1, right = rng.next() * 2 - 1;
         if (rng.next() < 0.03f) ahead = 1, right = 0, turn = 0;
         const float seconds = rng.next() < 0.02f ? 0.5f : 0.005f + 0.06f * rng.next();
-        walker = walk(walker, {{right, 0, ahead}, {turn, 0}, rng.next() < 0.5f}, seconds, place.body, place.around);
+        walker = walk(walker, {{right, 0, ahead}, {turn, 0}, rng.next() < 0.5f}, seconds, place.body, place.collision);
         check(walker, i);
         if (testing::Test::HasFatalFailure()) return;
     }
@@ -91,7 +92,7 @@ TEST(Walker, NeverLeavesAClosedRoomHoweverItPushesAtTheWalls) {
     for (const char* name : {"cube.gltf", "cornell.gltf"}) {
         const Place place = place_of(name);
         for (uint64_t seed = 1; seed <= 4; ++seed) {
-            const Walker start = walker_at(place.scene.cameras[0], place.body, place.around);
+            const Walker start = walker_at(place.scene.cameras[0], place.body, place.collision);
             if (start.flying) continue;  // the camera of the Cornell box stands outside
             wander(place, start, seed, 5000, [&](const Walker& w, int i) {
                 for (int axis = 0; axis < 3; ++axis) {
@@ -106,11 +107,11 @@ TEST(Walker, NeverLeavesAClosedRoomHoweverItPushesAtTheWalls) {
 TEST(Walker, WandersTheApartmentForThousandsOfStepsAndKeepsItsFloorAndCeiling) {
     const Place place = place_of("apartment.glb");
     for (size_t c = 0; c < place.scene.cameras.size(); ++c) {
-        const Walker start = walker_at(place.scene.cameras[c], place.body, place.around);
+        const Walker start = walker_at(place.scene.cameras[c], place.body, place.collision);
         ASSERT_FALSE(start.flying) << place.scene.cameras[c].name;
         vec3 low = start.eye, high = start.eye;
         wander(place, start, c + 1, 4000, [&](const Walker& w, int i) {
-            ASSERT_TRUE(place.around.floor_below(w.eye)) << "step " << i;
+            ASSERT_TRUE(place.collision.floor_below(w.eye)) << "step " << i;
             ASSERT_TRUE(place.caster.nearest(w.eye, vec3(0, 1, 0))) << "no ceiling at step " << i;
             low = min(low, w.eye), high = max(high, w.eye);
         });
@@ -124,7 +125,7 @@ testing::AssertionResult stays_inside(const Place& place, vec3 from, vec3 to) {
     const vec3 low = -vec3(place.scene.origin), high = vec3(glm::dvec3(8, 2.7, 0) - place.scene.origin);
     const bool inside =
         to.x > low.x && to.x < high.x && to.z > low.z - 6 && to.z < high.z && to.y > low.y && to.y < high.y;
-    if (inside && place.around.is_free(from, to)) return testing::AssertionSuccess();
+    if (inside && place.collision.is_free(from, to)) return testing::AssertionSuccess();
     const glm::dvec3 at = place.scene.origin + glm::dvec3(to);
     return testing::AssertionFailure() << (inside ? "passed a surface" : "left the flat") << " at " << at.x << " "
                                        << at.y << " " << at.z;
@@ -134,7 +135,7 @@ testing::AssertionResult stays_inside(const Place& place, vec3 from, vec3 to) {
 std::vector<Walker> places_in_all_rooms(const Place& place) {
     std::vector<Walker> places;
     for (size_t c = 0; c < place.scene.cameras.size(); ++c) {
-        const Walker start = walker_at(place.scene.cameras[c], place.body, place.around);
+        const Walker start = walker_at(place.scene.cameras[c], place.body, place.collision);
         wander(place, start, 10 + c, 1500, [&](const Walker& w, int i) {
             if (i % 100 == 0) places.push_back(w);
         });
@@ -155,7 +156,7 @@ TEST(Walker, PushingForAWhileAtEveryWallOfTheApartmentPassesNoneOfThem) {
                 const Walker before = walker;
                 const float sideways = i > 45 ? std::sin(float(i)) : 0.0f;
                 walker =
-                    walk(walker, {{sideways, 0, 1}, {0, 0}, true}, i % 10 ? 0.033f : 0.2f, place.body, place.around);
+                    walk(walker, {{sideways, 0, 1}, {0, 0}, true}, i % 10 ? 0.033f : 0.2f, place.body, place.collision);
                 ASSERT_TRUE(stays_inside(place, before.eye, walker.eye)) << "way " << way << ", step " << i;
                 low = min(low, walker.eye), high = max(high, walker.eye);
             }
@@ -167,7 +168,7 @@ TEST(Walker, PushingForAWhileAtEveryWallOfTheApartmentPassesNoneOfThem) {
 
 TEST(Walker, WalksTheSameWayEachTime) {
     const Place place = place_of("apartment.glb");
-    const Walker start = walker_at(place.scene.cameras[0], place.body, place.around);
+    const Walker start = walker_at(place.scene.cameras[0], place.body, place.collision);
     const auto end = [&] {
         Walker last;
         wander(place, start, 3, 600, [&](const Walker& w, int) { last = w; });
@@ -203,7 +204,7 @@ TEST(Walker, ClimbsStairsAndComesDownAgain) {
     float highest = 0;
     walker = standing_at(place, vec3(0, 0, 1));
     for (int i = 0; i < 300; ++i) {
-        walker = walk(walker, {{0, 0, 1}, {0, 0}, false}, 0.02f, place.body, place.around);
+        walker = walk(walker, {{0, 0, 1}, {0, 0}, false}, 0.02f, place.body, place.collision);
         highest = std::max(highest, feet_of(walker).y);
     }
     EXPECT_NEAR(highest, 6 * 0.18f, 1e-3f);
@@ -234,8 +235,8 @@ TEST(Walker, DoesNotStepOffAFloorThatEnds) {
 TEST(Walker, KeepsTheViewOfACameraUntilItMoves) {
     const Place place = place_of("apartment.glb");
     const Camera& camera = place.scene.cameras[0];
-    Walker walker = walker_at(camera, place.body, place.around);
-    for (int i = 0; i < 50; ++i) walker = walk(walker, {}, 0.02f, place.body, place.around);
+    Walker walker = walker_at(camera, place.body, place.collision);
+    for (int i = 0; i < 50; ++i) walker = walk(walker, {}, 0.02f, place.body, place.collision);
     const Camera seen = camera_of(walker, camera.yfov, camera.near);
     EXPECT_EQ(seen.position, camera.position);
     for (int axis = 0; axis < 3; ++axis) EXPECT_LT(length(seen.rotation[axis] - camera.rotation[axis]), 1e-4f);
@@ -247,11 +248,11 @@ TEST(Walker, FliesThroughWallsAndLandsOnlyWhereThereIsAFloor) {
     walker.flying = true;
     walker = walk_ahead(place, walker, 6);
     EXPECT_LT(walker.eye.z, -4);
-    EXPECT_TRUE(land(walker, place.body, place.around).flying);
+    EXPECT_TRUE(land(walker, place.body, place.collision).flying);
     walker.eye = vec3(1, 2.9f, 1);
-    walker = land(walker, place.body, place.around);
+    walker = land(walker, place.body, place.collision);
     EXPECT_FALSE(walker.flying);
-    for (int i = 0; i < 100; ++i) walker = walk(walker, {}, 0.02f, place.body, place.around);
+    for (int i = 0; i < 100; ++i) walker = walk(walker, {}, 0.02f, place.body, place.collision);
     EXPECT_NEAR(walker.eye.y, place.body.eye_height, 0.05f);
 }
 

@@ -117,7 +117,7 @@ double cells_of_a_search(const PhotonMap& map) {
 /// At all triangles, or at fewer where searches are long: 200,000 cells in sum, for a fuzzer that tries many maps.
 void estimate_everywhere(const Scene& scene, const PhotonMap& map) {
     static const Bvh bvh = build_bvh(scene_of_maps());
-    const std::vector<vec3> weights = light_powers(scene, {});
+    const std::vector<vec3> weights = lamp_powers(scene, {});
     const double searches = std::clamp(2e5 / cells_of_a_search(map), 1.0, 1e6);
     const auto step = uint(std::max(1.0, 4.0 * double(scene.triangles.size()) / searches)) | 1u;  // odd: both sides
     for (uint mode : {gather_mode_exact, gather_mode_smooth, gather_mode_cached}) {

@@ -134,7 +134,7 @@ TEST(Renderer, ShowsTheGlowOfADimmedLampAndNothingElseWithoutPhotons) {
     const Scene scene = two_walls();
     const PhotonMap dark = no_photons();
     Resident resident(device, scene, dark);
-    resident.set_light_factors(std::vector<float>{0.5f});
+    resident.set_lamp_factors(std::vector<float>{0.5f});
     Renderer renderer(device, resident, 64, 48);
     const Image image = renderer.render(scene.cameras[0], {{}, 0.0f, 4, 2}).image;
     EXPECT_NEAR(image.find("R")->values[64 * 24 + 10], 1.5f, 1e-5f);

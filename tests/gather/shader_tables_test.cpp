@@ -129,7 +129,8 @@ TEST(ShaderTables, ShadersDeclareTheConstantsOfTheTable) {
 TEST(ShaderTables, DefaultsOfTheStructsAreThoseOfTheShaders) {
     for (const Shader& shader : shaders) {
         std::map<uint32_t, uint32_t> defaults;
-        for (const SpecConstant& c : shader.of_view ? listed(ViewConstants()) : listed(FrameConstants()))
+        for (const SpecConstant& c :
+             shader.of_view ? spec_constants_of(ViewConstants()) : spec_constants_of(FrameConstants()))
             defaults[c.id] = c.bits;
         for (const auto& [number, id] : ids_of(shader.code)) {
             if (!id.decorations.contains(spec_id)) continue;

@@ -31,7 +31,7 @@ struct Baked {
           caster(scene),
           photons(shoot_photons(scene, caster, {.photons = count, .direct_in_photons = true})),
           map(build_photon_map(scene, caster, photons, {.photons = count, .direct_in_photons = true})),
-          weights(light_powers(scene, {})) {}
+          weights(lamp_powers(scene, {})) {}
     Scene scene;
     RayCaster caster;
     Photons photons;
@@ -191,7 +191,7 @@ TEST(Estimate, ExactDirectLightOfAPointLampFollowsTheInverseSquareAndCosineLaws)
     PhotonMap dark;
     dark.grid_of_side.assign(2 * scene.triangles.size(), no_grid);
     dark.settings.radius = 1;
-    const std::vector<vec3> weights = light_powers(scene, {});
+    const std::vector<vec3> weights = lamp_powers(scene, {});
     const PhotonEstimator estimator(scene, dark, weights, {}, bvh);
     for (uint t = 0; t < scene.triangles.size(); ++t)
         for (const vec2 place : {vec2(0.2f, 0.2f), vec2(0.05f, 0.9f), vec2(0.5f, 0.5f)}) {
@@ -236,7 +236,7 @@ TEST(Estimate, WhatNodesSeeOfALampSavesRaysButChangesNoLight) {
     PhotonMap unknown = known;
     unknown.visible_lamps.clear();
     const Bvh bvh = build_bvh(scene);
-    const std::vector<vec3> weights = light_powers(scene, {});
+    const std::vector<vec3> weights = lamp_powers(scene, {});
     const PhotonEstimator some_rays(scene, known, weights, {gather_mode_smooth, 50, 4}, bvh);
     const PhotonEstimator all_rays(scene, unknown, weights, {gather_mode_smooth, 50, 4}, bvh);
     Rng rng(3, 1, 1);
@@ -287,7 +287,7 @@ TEST(Estimate, LightOfCellsHoldsSmallLampsAsTheyAre) {
     PhotonMap by_rays = map;
     by_rays.visible_lamps.clear();  // then every lamp is looked at from every point
     const Bvh bvh = build_bvh(scene);
-    const std::vector<vec3> weights = light_powers(scene, {});
+    const std::vector<vec3> weights = lamp_powers(scene, {});
     const PhotonEstimator from_cells(scene, map, weights, {}, bvh), exact(scene, by_rays, weights, {}, bvh);
     const CellLight cells(scene, map);
     const uint lamps = uint(scene.lights.size()), stride = cell_words(lamps, map.has_marks()),

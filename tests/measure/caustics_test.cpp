@@ -28,7 +28,7 @@ TEST(Caustics, SensorsUnderAndAroundTheGlassBallAgreeWithThePathTracer) {
             in_air.push_back({at + vec3(0, 1.6f, 0), {0, -1, 0}, Response::planar});
         }
     // Where the caustics lie: at every so many of the arrivals of their light on the floor.
-    std::vector<vec3> weights = light_powers(scene, {});
+    std::vector<vec3> weights = lamp_powers(scene, {});
     for (size_t i = 0; i < weights.size(); ++i)
         if (scene.lights[i].type == light_mesh) weights[i] = vec3(0);  // theirs are faint and wide
     const Caustics caustics(scene, caster, weights, {20'000, 0.01f, 1, 0});

@@ -8,8 +8,7 @@
 #include "maps/bake.h"
 #include "measure/survey.h"
 #include "scene/ambiance.h"
-#include "scene/camera.h"
-#include "scene/profile.h"
+#include "scene/lamp_factors.h"
 
 namespace lw {
 namespace {
@@ -40,7 +39,7 @@ std::vector<Sensor> sensors_in(const Scene& scene) {
     return sensors;
 }
 
-Survey survey_of(const Scene& scene, const RayCaster& caster, std::vector<PowerSetting> ambiances) {
+Survey survey_of(const Scene& scene, const RayCaster& caster, std::vector<AmbianceFactors> ambiances) {
     constexpr uint64_t photons = 150'000;
     const PhotonMap map = bake(scene, caster, {.photons = photons});
     return make_survey(scene, caster, map, {{SensorSet::Kind::points, "points", "", sensors_in(scene), {}, {}}},
@@ -67,7 +66,8 @@ TEST(Color, FilteredLampsOnColouredWallsAgreeWithThePathTracer) {
 TEST(Color, ATemperatureKeepsTheLampsOwnLightAndTintsWhatIsReflected) {
     const Scene scene = coloured_room();
     const RayCaster caster(scene);
-    const std::vector<vec3> warm = parse_powers(scene, {"panel=0.5@2700K"}), plain = parse_powers(scene, {"panel=0.5"});
+    const std::vector<vec3> warm = parse_factors(scene, {"panel=0.5@2700K"}),
+                            plain = parse_factors(scene, {"panel=0.5"});
     Survey survey = survey_of(scene, caster, {{"warm", warm}, {"plain", plain}});
     trace_survey(scene, caster, 15'000, 1, survey);
     const Agreement agreement = agreement_of(survey.sets[0], survey.ambiances[0], 1);
@@ -85,7 +85,7 @@ TEST(Color, BadTemperaturesNameTheLamp) {
     const Scene scene = coloured_room();
     const auto error_of = [&](const std::string& text) -> std::string {
         try {
-            parse_powers(scene, {text});
+            parse_factors(scene, {text});
         } catch (const Error& e) {
             return e.what();
         }
@@ -97,9 +97,9 @@ TEST(Color, BadTemperaturesNameTheLamp) {
     EXPECT_NE(error_of("panel=@2700").find("the factor"), std::string::npos);
     Scene blue = scene;
     blue.lights[0].intensity = vec3(0, 0, 100);
-    EXPECT_THROW(parse_powers(blue, {blue.light_names[0] + "=1@2700"}), Error);
-    EXPECT_THROW(light_factors(blue, {{blue.light_names[0], {1, vec3(1), 2700}}}), Error);
-    EXPECT_EQ(light_factors(scene, {{"panel", {0.5f, vec3(1), 2700}}}), parse_powers(scene, {"panel=0.5@2700"}));
+    EXPECT_THROW(parse_factors(blue, {blue.light_names[0] + "=1@2700"}), Error);
+    EXPECT_THROW(lamp_factors(blue, {{blue.light_names[0], {1, vec3(1), 2700}}}), Error);
+    EXPECT_EQ(lamp_factors(scene, {{"panel", {0.5f, vec3(1), 2700}}}), parse_factors(scene, {"panel=0.5@2700"}));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ Scene two_chambers() {
     return lab.finish();
 }
 
-Survey survey_of(const Scene& scene, std::vector<SensorSet> sets, std::vector<PowerSetting> ambiances) {
+Survey survey_of(const Scene& scene, std::vector<SensorSet> sets, std::vector<AmbianceFactors> ambiances) {
     const RayCaster caster(scene);
     const PhotonMap map = bake(scene, caster, {.photons = 50'000});
     return make_survey(scene, caster, map, std::move(sets), std::move(ambiances), {});

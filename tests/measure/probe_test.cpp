@@ -63,7 +63,7 @@ Truth traced(const PathTracer& tracer, const Measurement& m, uint64_t seed, int 
 
 /// Part of the places at which the interval holds the traced value.
 double coverage(const Baked& b, int samples) {
-    const std::vector<vec3> weights = light_powers(b.scene, {});
+    const std::vector<vec3> weights = lamp_powers(b.scene, {});
     const PathTracer tracer(b.scene, b.caster, weights);
     const std::vector<SeenPlace> places = random_places(b, 200);
     const Probe probe(b.scene, b.caster, b.map, b.bvh);
@@ -97,9 +97,9 @@ TEST(Probe, HoldsThePathTracersIlluminanceAsOftenAsItSaysInTheApartment) {
 TEST(Probe, SharesAddUpToTheWholeAndFollowTheirLamps) {
     const Baked b("apartment.glb", 50'000);
     const SeenPlace place = random_places(b, 5).back();
-    std::vector<vec3> weights = light_powers(b.scene, {});
+    std::vector<vec3> powers = lamp_powers(b.scene, {});
     const Probe probe(b.scene, b.caster, b.map, b.bvh);
-    const Measurement all = probe.measure(weights, place);
+    const Measurement all = probe.measure(powers, place);
     float sum = 0;
     for (const LampShare& share : all.lamps) sum += share.lux;
     EXPECT_NEAR(sum, all.lux, 1e-4f * all.lux);

@@ -110,7 +110,7 @@ TEST(Glare, ASquareStraightAheadHasItsClosedForm) {
 TEST(Glare, BackgroundInAnIntegratingSphereIsItsReflectedLight) {
     const Scene scene = load_gltf(file_in_data("sphere.gltf"));  // 200 lx on walls of albedo 0.5, seen everywhere
     const RayCaster caster(scene);
-    const double background = background_luminance(scene, caster, scene.cameras[0], light_powers(scene, {}), 20000);
+    const double background = background_luminance(scene, caster, scene.cameras[0], lamp_powers(scene, {}), 20000);
     EXPECT_NEAR(background * M_PI, 100, 1.5);
 }
 
@@ -129,7 +129,7 @@ TEST(Reflections, PlantedOnesAreFoundAndAttributed) {
     const Scene scene = load_gltf(file_in_data("bad_reflections.gltf"));
     const RayCaster caster(scene);
     const ReflectionReport report =
-        find_reflections(scene, caster, scene.cameras[0], light_powers(scene, {}), {160, 90, 16, 1, {}});
+        find_reflections(scene, caster, scene.cameras[0], lamp_powers(scene, {}), {160, 90, 16, 1, {}});
     const std::vector<std::string> found = causes(scene, report);
     for (const Reflection& r : report.found) std::printf("%s\n", describe(scene, r).c_str());
     ASSERT_EQ(found.size(), 2u);
@@ -146,7 +146,7 @@ TEST(Reflections, TheMirrorImageHasTheLuminanceAndSizeOfGeometry) {
     const Scene scene = load_gltf(file_in_data("bad_reflections.gltf"));
     const RayCaster caster(scene);
     const ReflectionReport report =
-        find_reflections(scene, caster, scene.cameras[0], light_powers(scene, {}), {320, 180, 16, 1, {}});
+        find_reflections(scene, caster, scene.cameras[0], lamp_powers(scene, {}), {320, 180, 16, 1, {}});
     for (const Reflection& r : report.found) {
         if (scene.object_names[r.object] != "window") continue;
         // Lamp 0.16 x 0.1 m at (-1.4, 1.5, 1.8), mirrored in z = -1.95, seen from (0, 1.2, 1.5): Fresnel 4 % by
@@ -166,7 +166,7 @@ TEST(Reflections, NoneAreReportedInTheMatteTwin) {
     const RayCaster caster(scene);
     // Limits far below those of the planted ones: light that matte surfaces scatter is no reflection.
     const ReflectionReport report =
-        find_reflections(scene, caster, scene.cameras[0], light_powers(scene, {}), {160, 90, 16, 1, {5, 0, 0}});
+        find_reflections(scene, caster, scene.cameras[0], lamp_powers(scene, {}), {160, 90, 16, 1, {5, 0, 0}});
     EXPECT_TRUE(report.found.empty()) << describe(scene, report.found[0]);
     EXPECT_EQ(report.ugr, report.ugr_lamps);
 }
@@ -174,7 +174,7 @@ TEST(Reflections, NoneAreReportedInTheMatteTwin) {
 TEST(Reflections, LimitsLeaveOutWhatIsBelowThem) {
     const Scene scene = load_gltf(file_in_data("bad_reflections.gltf"));
     const RayCaster caster(scene);
-    const std::vector<vec3> weights = light_powers(scene, {});
+    const std::vector<vec3> weights = lamp_powers(scene, {});
     EXPECT_TRUE(
         find_reflections(scene, caster, scene.cameras[0], weights, {160, 90, 4, 1, {1e5, 3, 2e-5}}).found.empty());
     EXPECT_TRUE(
@@ -186,7 +186,7 @@ TEST(Reflections, GoToATableOfOneLineEach) {
     const Scene scene = load_gltf(file_in_data("bad_reflections.gltf"));
     const RayCaster caster(scene);
     const ReflectionReport report =
-        find_reflections(scene, caster, scene.cameras[0], light_powers(scene, {}), {160, 90, 4, 1, {}});
+        find_reflections(scene, caster, scene.cameras[0], lamp_powers(scene, {}), {160, 90, 4, 1, {}});
     const auto path = std::filesystem::temp_directory_path() / ("lw_reflections_" + std::to_string(getpid()) + ".csv");
     write_reflections(path, scene, report);
     std::ifstream in(path);

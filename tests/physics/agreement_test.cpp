@@ -44,7 +44,7 @@ void expect_same(const Baked& baked, uint mode, uint width, uint height) {
     const Camera& camera = baked.scene.cameras[0];
     const Rendering got = renderer.render(camera, settings);
     const std::vector<VisibleSample> seen = renderer.visible_samples();
-    const std::vector<vec3> weights = light_powers(baked.scene, {});
+    const std::vector<vec3> weights = lamp_powers(baked.scene, {});
     const PhotonEstimator estimator(baked.scene, baked.map, weights, settings.gather, baked.bvh);
     const std::vector<float>& lux = got.image.find("illuminance")->values;
     const std::vector<float>& green = got.image.find("G")->values;
@@ -151,7 +151,7 @@ TEST(Agreement, MapOfTheCornellBoxHasTheMeanOfThePathTracer) {
     settings.width = settings.height = 96;
     settings.samples = 64;
     const Image truth =
-        render_reference(baked.scene, baked.caster, camera, light_powers(baked.scene, {}), settings).image;
+        render_reference(baked.scene, baked.caster, camera, lamp_powers(baked.scene, {}), settings).image;
     double map_sum = 0, truth_sum = 0;
     for (int y = 0; y < 96; ++y)
         for (int x = 0; x < 96; ++x)
@@ -170,7 +170,7 @@ TEST(Agreement, DoubledLampDoublesThePicture) {
     Resident resident(device, baked.scene, baked.map, baked.bvh);
     Renderer renderer(device, resident, 48, 48);
     const Image once = renderer.render(baked.scene.cameras[0], {}).image;
-    resident.set_light_factors(std::vector<float>{2});
+    resident.set_lamp_factors(std::vector<float>{2});
     const Image twice = renderer.render(baked.scene.cameras[0], {}).image;
     for (size_t i = 0; i < once.pixel_count(); ++i)
         EXPECT_NEAR(twice.find("R")->values[i], 2 * once.find("R")->values[i],

@@ -208,7 +208,7 @@ TEST(GlassPhotons, LightCaughtByTotalReflectionEnds) {
         if (p.light() == bulb && p.path() == path_caustic) caustic += precise_luminance(p.flux);
     EXPECT_GT(caustic, 0.27 * b.flux_out);  // what meets the surface below the critical angle leaves at once: 28 %
     EXPECT_LT(caustic, 0.5 * b.flux_out);
-    const PathTracer tracer(scene, caster, light_powers(scene, {}));
+    const PathTracer tracer(scene, caster, lamp_powers(scene, {}));
     for (int i = 0; i < 2000; ++i) {
         Rng rng(8, 8, uint64_t(i));
         const vec3 along(0, 0.1f * rng.next(), 1);

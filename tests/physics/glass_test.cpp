@@ -225,7 +225,7 @@ uint material_named(const Scene& scene, const std::string& name) {
 
 double mean_radiance(const Scene& scene, vec3 eye, vec3 towards, double& error, int samples = 20000) {
     const RayCaster caster(scene);
-    const PathTracer tracer(scene, caster, light_powers(scene, {}));
+    const PathTracer tracer(scene, caster, lamp_powers(scene, {}));
     double sum = 0, sum2 = 0;
     const mat3 frame = frame_around(normalize(towards - eye));
     for (int i = 0; i < samples; ++i) {
@@ -297,7 +297,7 @@ TEST(Glass, AViewOfAFurnaceShowsItsRadianceWhateverStandsInIt) {
         const RayCaster caster(scene);
         const PhotonMap map = bake(scene, caster, {.photons = 1'000'000});
         const Bvh bvh = build_bvh(scene);
-        const std::vector<vec3> weights = light_powers(scene, {});
+        const std::vector<vec3> weights = lamp_powers(scene, {});
         for (uint mode : {gather_mode_cached, gather_mode_smooth}) {
             GatherSettings gather;
             gather.mode = mode;
@@ -318,7 +318,7 @@ TEST(Glass, AbsorptionFollowsTheLengthOfTheWay) {
         m.absorption = vec3(3);
     });
     const RayCaster caster(scene);
-    const PathTracer tracer(scene, caster, light_powers(scene, {}));
+    const PathTracer tracer(scene, caster, lamp_powers(scene, {}));
     const vec3 centre(0, -0.15f, 0), eye = centre + vec3(0, 0, 0.8f);
     double sum = 0;
     constexpr int samples = 20000;
@@ -338,7 +338,7 @@ TEST(Alpha, ABlendedBallIsMetByItsAlphaAndAMaskedHoleNotAtAll) {
             m.flags = flags, m.alpha = alpha;
         });
         const RayCaster caster(scene);
-        const PathTracer tracer(scene, caster, light_powers(scene, {}));
+        const PathTracer tracer(scene, caster, lamp_powers(scene, {}));
         double sum = 0;
         constexpr int samples = 20000;
         for (int i = 0; i < samples; ++i) {

@@ -30,7 +30,7 @@ struct Room {
     Room(const std::string& file, const std::function<void(Scene&)>& change, uint64_t photons)
         : scene(changed(file, change)),
           caster(scene),
-          weights(light_powers(scene, {})),
+          weights(lamp_powers(scene, {})),
           map(bake(scene, caster, {.photons = photons})),
           bvh(build_bvh(scene)) {}
     static Scene changed(const std::string& file, const std::function<void(Scene&)>& change) {
@@ -162,7 +162,7 @@ TEST(Gloss, ALampThatIsHalfThereSendsHalfItsLight) {
         Scene scene = load_gltf(file_in_data("cornell.gltf"));
         for (Material& m : scene.materials)
             if (m.emissive.y > 0) m.flags |= material_alpha_blend, m.alpha = alpha;
-        const std::vector<vec3> weights = light_powers(scene, {});
+        const std::vector<vec3> weights = lamp_powers(scene, {});
         PhotonMap dark;
         dark.settings.radius = 0.1f;
         dark.grid_of_side.assign(2 * scene.triangles.size(), no_grid);

@@ -82,7 +82,7 @@ TEST(DamagedJson, OfAmbiancesIsRefusedOrGivesPowersThatAreNumbers) {
     const std::string whole = R"({"ambiances": {"Evening": {"ceiling_lamp": 0.4, "floor lamp": {"factor": 1.25,
         "color": [1, 0.8, 0.5]}}, "Off": {"ceiling_lamp": 0}}, "groups": {"Ceiling": ["ceiling_lamp", "spot"]}})";
     const size_t taken = feed(whole, [](const std::string& path) {
-        for (const auto& [name, ambiance] : load_lamp_book(path).ambiances)
+        for (const auto& [name, ambiance] : load_lamp_presets(path).ambiances)
             for (const auto& [lamp, setting] : ambiance) {
                 const vec3 power = setting.factor * setting.color;
                 EXPECT_TRUE(std::isfinite(power.x + power.y + power.z)) << name;
@@ -165,13 +165,13 @@ TEST(DamagedJson, NamesWrittenTwiceAreRefused) {
     const std::string path = folder / "cornell.ambiances.json";
     write_text(path, R"({"ambiances": {"day": {"lamp": 1}, "evening": {"lamp": 0.5}, "day": {"lamp": 2}}})");
     try {
-        load_lamp_book(path);
+        load_lamp_presets(path);
         ADD_FAILURE();
     } catch (const Error& refusal) {
         EXPECT_EQ(std::string(refusal.what()), path + ": \"day\" is written twice in one object");
     }
     write_text(path, R"({"ambiances": {"day": {"lamp": 1}, "evening": {"lamp": 0.5}}})");
-    EXPECT_EQ(load_lamp_book(path).ambiances.size(), 2u);
+    EXPECT_EQ(load_lamp_presets(path).ambiances.size(), 2u);
 }
 
 TEST(DamagedJson, NestedDeeplyOrHugeIsRefused) {
@@ -180,12 +180,12 @@ TEST(DamagedJson, NestedDeeplyOrHugeIsRefused) {
     for (const std::string& text : {std::string(200'000, '['), std::string(200'000, '[') + std::string(200'000, ']'),
                                     std::string((65u << 20), ' ')}) {
         write_text(path, text);
-        EXPECT_THROW(load_lamp_book(path), Error) << text.size();
+        EXPECT_THROW(load_lamp_presets(path), Error) << text.size();
         EXPECT_THROW(load_bookmarks(path), Error) << text.size();
         EXPECT_THROW(load_path(path), Error) << text.size();
     }
     try {
-        load_lamp_book(path);
+        load_lamp_presets(path);
     } catch (const Error& refusal) {  // before 65 MiB are parsed
         EXPECT_NE(std::string(refusal.what()).find("larger than 64 MiB"), std::string::npos) << refusal.what();
     }

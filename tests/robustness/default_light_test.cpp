@@ -31,7 +31,7 @@ struct DefaultLight {
 
     Baked baked;
     Bvh bvh;
-    std::vector<vec3> weights = light_powers(baked.scene, {});
+    std::vector<vec3> weights = lamp_powers(baked.scene, {});
 };
 
 /// Calls read(mode, shadow rays) for every way.

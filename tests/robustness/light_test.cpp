@@ -24,7 +24,7 @@ bool is_light(vec3 v) { return std::isfinite(v.x + v.y + v.z) && v.x >= 0 && v.y
 /// Illuminance below `height` at (x, z) of the room, looking straight down.
 double lux_below(const Baked& baked, const Room& room, glm::dvec3 from, uint mode) {
     const Bvh bvh = build_bvh(baked.scene);
-    const std::vector<vec3> weights = light_powers(baked.scene, {});
+    const std::vector<vec3> weights = lamp_powers(baked.scene, {});
     const PhotonEstimator estimator(baked.scene, baked.map, weights, {mode, 200, 4}, bvh);
     const glm::dvec3 world = glm::dvec3(room.node * glm::dvec4(from, 1)) - baked.scene.origin;
     const std::optional<Hit> hit = baked.caster.nearest(vec3(world), vec3(0, -1, 0));
@@ -35,7 +35,7 @@ double lux_below(const Baked& baked, const Room& room, glm::dvec3 from, uint mod
 /// All readings are numbers, on corners and edges of all triangles too; returns the largest.
 double check_everywhere(const Baked& baked, const Room& room) {
     const Bvh bvh = build_bvh(baked.scene);
-    const std::vector<vec3> weights = light_powers(baked.scene, {});
+    const std::vector<vec3> weights = lamp_powers(baked.scene, {});
     double most = 0;
     for (uint mode : modes)
         for (uint neighbours : {1u, 50u, 1'000'000u}) {
@@ -181,11 +181,11 @@ TEST(Light, OfADimLampStandsBesideOneAMillionTimesBrighter) {
     room.candela = 300e6, room.panel_luminance = 2000;
     alone.candela = 0;
     const Baked both(room), one(alone);
-    std::vector<vec3> dim = light_powers(both.scene, {});
+    std::vector<vec3> dim = lamp_powers(both.scene, {});
     ASSERT_EQ(both.scene.lights[0].type, light_point);
     dim[0] = vec3(0);
     const Bvh bvh = build_bvh(both.scene);
-    const std::vector<vec3> full = light_powers(one.scene, {});
+    const std::vector<vec3> full = lamp_powers(one.scene, {});
     const PhotonEstimator estimator(both.scene, both.map, dim, {gather_mode_cached, 200, 4}, bvh);
     const PhotonEstimator expected(one.scene, one.map, full, {gather_mode_cached, 200, 4}, bvh);
     double sum = 0, expected_sum = 0;

@@ -81,7 +81,7 @@ TEST(NoNumber, IsInNoPictureOfTheReferenceWhateverTheCamera) {
     const Room room = plain_room();
     const Scene scene = load(room);
     const RayCaster caster(scene);
-    const std::vector<vec3> weights = light_powers(scene, {});
+    const std::vector<vec3> weights = lamp_powers(scene, {});
     ReferenceSettings settings;
     settings.width = 8, settings.height = 6, settings.samples = 4;
     for (float degrees : {1.0f, 60.0f, 170.0f})
@@ -99,7 +99,7 @@ TEST(NoNumber, IsInNoPictureOfTheReferenceWhateverTheCamera) {
 TEST(NoNumber, IsReadWhereAllPhotonsLieInOnePoint) {
     Baked baked(plain_room(), 1'000);
     const SurfaceReader surface(baked.scene);
-    const std::vector<vec3> weights = light_powers(baked.scene, {});
+    const std::vector<vec3> weights = lamp_powers(baked.scene, {});
     const std::vector<Photon> all = baked.photons.records;
     for (const uint triangle : {0u, 1u, 2u, 3u}) {  // of some the point is read at a distance of exactly 0
         const auto photon =

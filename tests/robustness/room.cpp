@@ -166,7 +166,7 @@ Baked::Baked(const Room& room, uint64_t photon_count, uint64_t seed, bool direct
 
 Readings read(const Baked& baked, const Room& room, uint mode) {
     const Bvh bvh = build_bvh(baked.scene);
-    const std::vector<vec3> weights = light_powers(baked.scene, {});
+    const std::vector<vec3> weights = lamp_powers(baked.scene, {});
     const PhotonEstimator estimator(baked.scene, baked.map, weights, {mode, 200, 4}, bvh);
     const glm::dvec3 eye = glm::dvec3(room.node * glm::dvec4(room.eye, 1)) - baked.scene.origin;
     const glm::dmat4 back = glm::inverse(room.node);

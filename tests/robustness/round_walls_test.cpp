@@ -93,7 +93,7 @@ TEST_P(RoundWalls, KeepLightOnTheirSide) {
     const Shell& shell = GetParam();
     for (const bool lamp_inside : {false, true}) {
         const Baked baked(room_of(shell, lamp_inside), 200'000, 1, true);
-        const std::vector<vec3> weights = light_powers(baked.scene, {});
+        const std::vector<vec3> weights = lamp_powers(baked.scene, {});
         double max_near = 0, most = 0;
         for (uint mode : modes) {
             const PhotonEstimator estimator(baked.scene, baked.map, weights, {mode, 200, 0});
@@ -118,7 +118,7 @@ TEST_P(RoundWalls, TakeNoLightFromTheFloorBesideThem) {
     room.albedo = 0;  // what lands is known: I cos / d2
     room.lamp = middle + glm::dvec3(0, 2.5, 0);
     const Baked baked(room, 400'000, 1, true);
-    const std::vector<vec3> weights = light_powers(baked.scene, {});
+    const std::vector<vec3> weights = lamp_powers(baked.scene, {});
     for (uint mode : {gather_mode_cached, gather_mode_smooth}) {
         const PhotonEstimator estimator(baked.scene, baked.map, weights, {mode, 100, 0});
         double sum = 0, expected = 0;

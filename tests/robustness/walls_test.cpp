@@ -81,7 +81,7 @@ TEST_P(Walls, KeepAllLightOnTheirSide) {
     const House& house = GetParam();
     for (const uint64_t photons : {5'000, 200'000}) {
         const Baked baked(room_of(house), photons, 1, true);
-        const std::vector<vec3> weights = light_powers(baked.scene, {});
+        const std::vector<vec3> weights = lamp_powers(baked.scene, {});
         const glm::dvec3 along(-house.across.z, 0, house.across.x);
         double most = 0;
         for (uint mode : modes) {
@@ -119,7 +119,7 @@ TEST_P(Walls, TakeNoLightFromTheFloorBesideThem) {
     Room room = room_of(house);
     room.albedo = 0;  // what lands is known: I cos / d2
     const Baked baked(room, 400'000, 1, true);
-    const std::vector<vec3> weights = light_powers(baked.scene, {});
+    const std::vector<vec3> weights = lamp_powers(baked.scene, {});
     const glm::dvec3 along(-house.across.z, 0, house.across.x);
     for (uint mode : {gather_mode_cached, gather_mode_smooth}) {
         const PhotonEstimator estimator(baked.scene, baked.map, weights, {mode, 100, 0});
@@ -143,7 +143,7 @@ TEST(Storeys, KeepTheirLightAlongTheWallThatGoesThroughBoth) {
     Room room = room_of(house);
     room.lamp = {2, 0.9, 2.5};
     const Baked baked(room, 200'000, 1, true);
-    const std::vector<vec3> weights = light_powers(baked.scene, {});
+    const std::vector<vec3> weights = lamp_powers(baked.scene, {});
     for (uint mode : modes) {
         const PhotonEstimator estimator(baked.scene, baked.map, weights, {mode, 200, 0});
         for (double distance : distances)
@@ -160,7 +160,7 @@ TEST(Walls, WithADoorLetLightThroughItOnly) {
     room.walls = joined(box({0, 0, 0}, {8, 3, 5}, true), wall);
     room.albedo = 0;
     const Baked baked(room, 400'000, 1, true);
-    const std::vector<vec3> weights = light_powers(baked.scene, {});
+    const std::vector<vec3> weights = lamp_powers(baked.scene, {});
     const PhotonEstimator estimator(baked.scene, baked.map, weights, {gather_mode_smooth, 100, 0});
     double sum = 0, expected = 0;
     for (double x = 3.7; x < 4.31; x += 0.01)

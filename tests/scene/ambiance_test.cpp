@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "programs/command.h"
 #include "scene/gltf.h"
+#include "scene/lamp_factors.h"
 
 namespace lw {
 namespace {
@@ -15,7 +16,7 @@ std::string refusal_of(const std::string& text) {
     const std::string path = folder / "room.ambiances.json";
     write_text(path, text);
     try {
-        load_lamp_book(path);
+        load_lamp_presets(path);
     } catch (const Error& refusal) {
         EXPECT_NE(std::string(refusal.what()).find("room.ambiances.json"), std::string::npos) << refusal.what();
         EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos) << refusal.what();
@@ -26,19 +27,20 @@ std::string refusal_of(const std::string& text) {
 
 TEST(Ambiance, ComesBackFromItsFileAsItWas) {
     const TempFolder folder;
-    LampBook book;
-    book.ambiances["Evening \"late\""] = {{"Pendant", {0.4f, vec3(1)}}, {"Lounge / 2", {1.25f, vec3(1, 0.8f, 0.5f)}}};
-    book.ambiances["Off"] = {{"Pendant", {0, vec3(1)}}};
-    book.groups["Ceiling"] = {"Pendant", "Spot"};
-    save_lamp_book(folder / "a.json", book);
-    const LampBook loaded = load_lamp_book(folder / "a.json");
-    EXPECT_EQ(loaded.ambiances, book.ambiances);
-    EXPECT_EQ(loaded.groups, book.groups);
+    LampPresets presets;
+    presets.ambiances["Evening \"late\""] = {{"Pendant", {0.4f, vec3(1)}},
+                                             {"Lounge / 2", {1.25f, vec3(1, 0.8f, 0.5f)}}};
+    presets.ambiances["Off"] = {{"Pendant", {0, vec3(1)}}};
+    presets.groups["Ceiling"] = {"Pendant", "Spot"};
+    save_lamp_presets(folder / "a.json", presets);
+    const LampPresets loaded = load_lamp_presets(folder / "a.json");
+    EXPECT_EQ(loaded.ambiances, presets.ambiances);
+    EXPECT_EQ(loaded.groups, presets.groups);
 }
 
 TEST(Ambiance, IsEmptyWithoutAFile) {
     const TempFolder folder;
-    EXPECT_TRUE(load_lamp_book(folder / "missing.json").ambiances.empty());
+    EXPECT_TRUE(load_lamp_presets(folder / "missing.json").ambiances.empty());
 }
 
 TEST(Ambiance, RefusesWhatIsMalformedAndNamesIt) {
@@ -72,9 +74,9 @@ TEST(Ambiance, RefusesWhatIsMalformedAndNamesIt) {
 
 TEST(Ambiance, MultipliesThePowersOfItsLampsAndRefusesUnknownOnes) {
     const Scene scene = load_gltf(LUMENWALK_SOURCE_DIR "/data/cornell.gltf");
-    EXPECT_EQ(light_factors(scene, {})[0], vec3(1));
-    EXPECT_EQ(light_factors(scene, {{"ceiling_lamp", {0.5f, vec3(1, 0.5f, 0)}}})[0], vec3(0.5f, 0.25f, 0));
-    EXPECT_THROW(light_factors(scene, {{"floor_lamp", {}}}), Error);
+    EXPECT_EQ(lamp_factors(scene, {})[0], vec3(1));
+    EXPECT_EQ(lamp_factors(scene, {{"ceiling_lamp", {0.5f, vec3(1, 0.5f, 0)}}})[0], vec3(0.5f, 0.25f, 0));
+    EXPECT_THROW(lamp_factors(scene, {{"floor_lamp", {}}}), Error);
 }
 
 TEST(Ambiance, DimsThePictureAsPowerDoes) {

@@ -140,7 +140,7 @@ double mean_lux(const PathTracer& tracer, vec3 point, vec3 normal, int samples, 
 TEST(PathTracer, ClosedSphereHasTheIlluminanceOfTheIntegratingSphere) {
     const Scene scene = load_gltf(file_in_data("sphere.gltf"));
     const RayCaster caster(scene);
-    const PathTracer tracer(scene, caster, light_powers(scene, {}));
+    const PathTracer tracer(scene, caster, lamp_powers(scene, {}));
     double error = 0;
     const double lux = mean_lux(tracer, vec3(0, -0.995f, 0), vec3(0, 1, 0), 20000, error);
     EXPECT_NEAR(lux, 100 / (1 - 0.5), 0.01 * 200 + 4 * error);  // E = (I / R^2) / (1 - rho), R = 1 m
@@ -149,7 +149,7 @@ TEST(PathTracer, ClosedSphereHasTheIlluminanceOfTheIntegratingSphere) {
 TEST(PathTracer, FurnaceShowsTheSameRadianceEverywhere) {
     const Scene scene = load_gltf(file_in_data("furnace.gltf"));
     const RayCaster caster(scene);
-    const PathTracer tracer(scene, caster, light_powers(scene, {}));
+    const PathTracer tracer(scene, caster, lamp_powers(scene, {}));
     double sum = 0;
     constexpr int n = 20000;
     for (int i = 0; i < n; ++i) {

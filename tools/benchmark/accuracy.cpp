@@ -109,7 +109,7 @@ Image cached_reference(const std::filesystem::path& folder, const Scene& scene, 
     // A set is traced for each sample: a few paths for each pixel are enough.
     settings.caustic_paths = std::min<uint64_t>(settings.caustic_paths, 4 * uint64_t(view.width) * view.height);
     settings.seed = reference_seed;
-    const Image image = render_reference(scene, caster, view.camera, light_powers(scene, {}), settings).image;
+    const Image image = render_reference(scene, caster, view.camera, lamp_powers(scene, {}), settings).image;
     std::filesystem::create_directories(file.parent_path());
     write_exr(file, image);
     return image;

@@ -25,7 +25,7 @@ std::vector<MeasuredMode> measured_modes() {
 }
 
 BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesystem::path& folder)
-    : scene(std::move(made)), weights(light_powers(scene, {})) {
+    : scene(std::move(made)), powers(lamp_powers(scene, {})) {
     const std::filesystem::path file = folder / "benchmark.pmap";
     cost.hierarchy = cost_of([&] { caster = std::make_unique<RayCaster>(scene); });
     const double before_mb = reset_peak_memory();
@@ -39,14 +39,12 @@ BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesy
     std::filesystem::remove(file);
 }
 
-uint64_t bytes_of(const PhotonMap& map) { return map.bytes(); }
-
 double references_per_photon(const PhotonMap& map) {
     return double(map.places.size()) / double(std::max<uint64_t>(1, map.stored_photons));
 }
 
 double bytes_per_photon(const PhotonMap& map) {
-    return double(bytes_of(map)) / double(std::max<uint64_t>(1, map.stored_photons));
+    return double(map.bytes()) / double(std::max<uint64_t>(1, map.stored_photons));
 }
 
 CaseOnDevice::CaseOnDevice(const Device& device, const BakedCase& baked) : device_(device) {

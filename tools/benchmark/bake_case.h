@@ -43,12 +43,10 @@ struct BakedCase {
     std::unique_ptr<RayCaster> caster;
     Photons photons;
     PhotonMap map;
-    std::vector<vec3> weights;  // RGB power of each lamp
+    std::vector<vec3> powers;  // RGB power of each lamp
     BakeCost cost;
 };
 
-/// Bytes of the arrays of a map in memory; on the device they are the same.
-uint64_t bytes_of(const PhotonMap& map);
 double references_per_photon(const PhotonMap& map);
 double bytes_per_photon(const PhotonMap& map);
 

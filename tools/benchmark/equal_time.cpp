@@ -35,7 +35,7 @@ Reference trace(const BakedCase& baked, const ReferenceView& view, uint64_t samp
     settings.samples = samples;
     settings.illuminance = false;
     settings.seed = 2;
-    return render_reference(baked.scene, *baked.caster, view.camera, baked.weights, settings);
+    return render_reference(baked.scene, *baked.caster, view.camera, baked.powers, settings);
 }
 
 struct TracerRun {

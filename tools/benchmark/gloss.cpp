@@ -89,10 +89,10 @@ class Measured {
 std::vector<bool> Measured::caustic_pixels(const TimedFrame& frame) const {
     const std::vector<float>& lux = frame.rendering.image.find("illuminance")->values;
     std::vector<bool> lit(lux.size(), false);
-    if (!has_caustics(baked_.scene, baked_.weights)) return lit;
+    if (!has_caustics(baked_.scene, baked_.powers)) return lit;
     double mean = 0;
     for (float e : lux) mean += double(e) / double(lux.size());
-    const Caustics caustics(baked_.scene, *baked_.caster, baked_.weights, {2'000'000, 0.004f * baked_.scene.size()});
+    const Caustics caustics(baked_.scene, *baked_.caster, baked_.powers, {2'000'000, 0.004f * baked_.scene.size()});
     const SurfaceReader surfaces(baked_.scene);
     const Camera& camera = baked_.scene.cameras[0];
     for (size_t i = 0; i < lit.size(); ++i) {

@@ -21,7 +21,7 @@ double candidates(const CountingEstimator& estimator, const VisiblePoint& p, boo
 }
 
 double mean_candidates(const BakedCase& baked, const std::vector<VisiblePoint>& points, const GatherSettings& gather) {
-    const CountingEstimator estimator(baked.scene, baked.map, baked.weights, gather);
+    const CountingEstimator estimator(baked.scene, baked.map, baked.powers, gather);
     double sum = 0;
     size_t count = 0;
     for (size_t i = 0; i < points.size(); i += 17, ++count)

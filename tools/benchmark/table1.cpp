@@ -89,7 +89,7 @@ Row measure_tree(const Subject& subject, const PhotonEstimator& estimator) {
     const std::vector<Photon>& photons = subject.baked.photons.records;
     return measure_on_cpu(subject, "global 3D kd-tree, photons hold all light", tree,
                           [&](uint i, float kernel, const VisiblePoint& p, Gathered& sum) {
-                              const vec3 flux = photons[i].flux * subject.baked.weights[photons[i].light()] * kernel;
+                              const vec3 flux = photons[i].flux * subject.baked.powers[photons[i].light()] * kernel;
                               sum.irradiance += flux;
                               sum.radiance += flux * estimator.eval_brdf(p.surface, p.shading_normal, p.to_view,
                                                                          p.shading_normal, true);
@@ -140,7 +140,7 @@ std::vector<Table> measure_table1(const Bench& bench) {
     Subject subject{bench, baked, {baked.scene.cameras[0], side, side, bench.pick<uint64_t>(32, 512)}, {}, {}};
     subject.reference = cached_reference(bench.folder, baked.scene, *baked.caster, subject.view);
     subject.points = visible_points(baked.scene, *baked.caster, baked.map, subject.view.camera, side, side);
-    const PhotonEstimator estimator(baked.scene, baked.map, baked.weights, {gather_mode_exact, wanted});
+    const PhotonEstimator estimator(baked.scene, baked.map, baked.powers, {gather_mode_exact, wanted});
 
     std::vector<Row> rows = paper_rows();
     rows.push_back(measure_tree(subject, estimator));

@@ -24,7 +24,7 @@ struct Counted {
 double per_pixel(uint64_t reads, size_t pixels) { return double(reads) / double(pixels); }
 
 Row count_of(const Counted& counted, const BakedCase& baked, const Bvh& bvh, uint side, size_t step) {
-    const CountingEstimator estimator(baked.scene, baked.map, baked.weights, counted.gather, bvh);
+    const CountingEstimator estimator(baked.scene, baked.map, baked.powers, counted.gather, bvh);
     const Camera camera = find_camera(baked.scene, counted.camera);
     const auto points = visible_points(baked.scene, *baked.caster, baked.map, camera, side, side);
     size_t pixels = 0;

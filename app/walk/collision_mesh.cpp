@@ -1,7 +1,9 @@
-#include "app/walk/surroundings.h"
+#include "app/walk/collision_mesh.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "scene/triangle.h"
 
 namespace lw {
 namespace {
@@ -18,20 +20,20 @@ std::vector<Box> triangle_boxes(const Scene& scene) {
 
 }  // namespace
 
-Surroundings::Surroundings(const Scene& scene, const RayCaster& caster)
+CollisionMesh::CollisionMesh(const Scene& scene, const RayCaster& caster)
     : scene_(scene), caster_(caster), triangles_(triangle_boxes(scene)) {}
 
-bool Surroundings::is_free(vec3 from, vec3 to) const {
+bool CollisionMesh::is_free(vec3 from, vec3 to) const {
     const float distance = length(to - from);
     return !(distance > 0) || !caster_.nearest(from, (to - from) / distance, distance);
 }
 
-std::optional<float> Surroundings::floor_below(vec3 point) const {
+std::optional<float> CollisionMesh::floor_below(vec3 point) const {
     const std::optional<Hit> hit = caster_.nearest(point, vec3(0, -1, 0));
     return hit ? std::optional(point.y - hit->distance) : std::nullopt;
 }
 
-Surroundings::Contact Surroundings::max_contact(const Capsule& capsule) const {
+CollisionMesh::Contact CollisionMesh::max_contact(const Capsule& capsule) const {
     const int spheres = 1 + int(std::ceil(capsule.length / capsule.radius));
     const vec3 reach(capsule.radius);
     Contact deepest;
@@ -49,9 +51,9 @@ Surroundings::Contact Surroundings::max_contact(const Capsule& capsule) const {
     return deepest;
 }
 
-float Surroundings::overlap(const Capsule& capsule) const { return max_contact(capsule).depth; }
+float CollisionMesh::overlap(const Capsule& capsule) const { return max_contact(capsule).depth; }
 
-vec3 Surroundings::push_out(const Capsule& capsule) const {
+vec3 CollisionMesh::push_out(const Capsule& capsule) const {
     vec3 move(0);
     for (int i = 0; i < 6; ++i) {
         const Contact contact = max_contact({capsule.low + move, capsule.length, capsule.radius});

@@ -11,16 +11,16 @@ struct LampState {
     vec3 color{1};      // filter, linear Rec.709
 };
 
-using LampBoard = std::vector<LampState>;  // one per lamp of the scene
+using LampStates = std::vector<LampState>;  // one per lamp of the scene
 
 /// The RGB factor of each lamp, by which its power in the file is multiplied.
-std::vector<vec3> factors_of(const LampBoard& board);
+std::vector<vec3> factors_of(const LampStates& lamps);
 
-/// The board as an ambiance, by the names of the lamps. Lamps at the power of the file are left out.
-Ambiance ambiance_of(const Scene& scene, const LampBoard& board);
+/// The states as an ambiance, by the names of the lamps. Lamps at the power of the file are left out.
+Ambiance ambiance_of(const Scene& scene, const LampStates& lamps);
 
-/// A board with the settings of an ambiance. Names of lamps that the scene does not have are appended to `missing`.
-LampBoard with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing);
+/// States with the settings of an ambiance. Names of lamps that the scene does not have are appended to `missing`.
+LampStates with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing);
 
 /// The factors `from` (t = 0) to `to` (t = 1), blended linearly.
 std::vector<vec3> mixed(const std::vector<vec3>& from, const std::vector<vec3>& to, float t);

@@ -1,4 +1,6 @@
-#include "app/session/lamp_board.h"
+#include "app/session/lamp_states.h"
+#include "scene/lamp_factors.h"
+#include "shaders/color.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,39 +12,39 @@
 namespace lw {
 namespace {}  // namespace
 
-std::vector<vec3> factors_of(const LampBoard& board) {
-    const bool any_solo = std::any_of(board.begin(), board.end(), [](const LampState& l) { return l.solo; });
+std::vector<vec3> factors_of(const LampStates& lamps) {
+    const bool any_solo = std::any_of(lamps.begin(), lamps.end(), [](const LampState& l) { return l.solo; });
     std::vector<vec3> factors;
-    for (const LampState& lamp : board)
+    for (const LampState& lamp : lamps)
         factors.push_back(lamp.on && (lamp.solo || !any_solo) ? lamp.dimmer * lamp.color : vec3(0));
     return factors;
 }
 
-Ambiance ambiance_of(const Scene& scene, const LampBoard& board) {
+Ambiance ambiance_of(const Scene& scene, const LampStates& lamps) {
     Ambiance ambiance;
-    for (size_t i = 0; i < board.size(); ++i) {
-        const LampSetting setting{board[i].on ? board[i].dimmer : 0.0f, board[i].color};
+    for (size_t i = 0; i < lamps.size(); ++i) {
+        const LampSetting setting{lamps[i].on ? lamps[i].dimmer : 0.0f, lamps[i].color};
         if (setting != LampSetting{}) ambiance[scene.light_names[i]] = setting;
     }
     return ambiance;
 }
 
-LampBoard with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing) {
-    LampBoard board(scene.lights.size());
+LampStates with_ambiance(const Scene& scene, const Ambiance& ambiance, std::vector<std::string>& missing) {
+    LampStates lamps(scene.lights.size());
     for (const auto& [name, setting] : ambiance) {
         const auto found = std::find(scene.light_names.begin(), scene.light_names.end(), name);
         if (found == scene.light_names.end()) {
             missing.push_back(name);
             continue;
         }
-        LampState& lamp = board[size_t(found - scene.light_names.begin())];
+        LampState& lamp = lamps[size_t(found - scene.light_names.begin())];
         lamp.dimmer = setting.factor;
         lamp.on = setting.factor > 0;
         if (!lamp.on) lamp.dimmer = 1;
         lamp.color =
-            factor_of({1, setting.color, setting.kelvin}, scene.lights[size_t(&lamp - board.data())].intensity);
+            factor_of({1, setting.color, setting.kelvin}, scene.lights[size_t(&lamp - lamps.data())].intensity);
     }
-    return board;
+    return lamps;
 }
 
 std::vector<vec3> mixed(const std::vector<vec3>& from, const std::vector<vec3>& to, float t) {

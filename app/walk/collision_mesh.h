@@ -15,9 +15,9 @@ struct Capsule {
 };
 
 /// Scene and caster must outlive it. Thread-safe for queries.
-class Surroundings {
+class CollisionMesh {
   public:
-    Surroundings(const Scene& scene, const RayCaster& caster);
+    CollisionMesh(const Scene& scene, const RayCaster& caster);
 
     /// True when no surface crosses the segment.
     bool is_free(vec3 from, vec3 to) const;
