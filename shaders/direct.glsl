@@ -2,7 +2,7 @@
 // `shadow_rays`. Where the cell of the lattice knows that a lamp lights all or nothing of it, or has a shadow mask of
 // the lamp, no ray is traced. With has_shadow_rays false no ray is traced at all, and shadows are as sharp as the masks
 // and the lattice. One text for C++ and GLSL. The including scope provides what gather.glsl, rays.glsl and lights.glsl
-// need, the functions light_at, light_power, cell_word, shadow_mask, and the constants has_area_lamps,
+// need, the functions light_at, lamp_power, cell_word, shadow_mask, and the constants has_area_lamps,
 // has_visible_lamps, has_shadow_masks, has_smooth_caustics, has_shadow_rays, has_followed, light_count, shadow_rays,
 // lobe_paths (per pixel along a lobe) and ray_epsilon.
 
@@ -123,7 +123,7 @@ void add_lamp(uint i, LampVisibility visible, Surface s, vec3 n_geometric, vec3 
     Light lamp = light_at(i);
     bool delta = !has_area_lamps || is_delta(lamp.type);
     bool beside_rays = leaves_lobe_out(s) && has_surface(lamp.type);  // rays bring the rest of the lobe
-    vec3 weight = light_power(i) * visible.passed;
+    vec3 weight = lamp_power(i) * visible.passed;
     uint samples = delta ? 1u : max(shadow_rays, 1u);
     for (uint j = 0u; j < samples; ++j) {
         vec2 u = delta ? vec2(0.0f) : lamp_point(points, i, points.round * samples + j);

@@ -6,6 +6,8 @@
 #include <map>
 
 #include "app/panels/panels.h"
+#include "app/session/actions.h"
+#include "app/session/saving.h"
 #include "scene/light.h"
 
 namespace lw {
@@ -32,7 +34,7 @@ std::string power_of(const Session& s, size_t i) {
     const auto luminaire = s.world.luminaires.find(i);
     const float flux = luminaire == s.world.luminaires.end() ? unit_flux(s.world.scene, s.world.scene.lights[i])
                                                              : luminaire->second.unit_flux;
-    const LampState& lamp = s.lighting.board[i];
+    const LampState& lamp = s.lighting.lamps[i];
     return power_text(s.world.scene.lights[i], lamp.on ? lamp.dimmer : 0, flux);
 }
 

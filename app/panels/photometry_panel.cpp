@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/panels/panels.h"
+#include "app/session/saving.h"
 #include "scene/light.h"
 
 namespace lw {

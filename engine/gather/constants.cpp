@@ -32,9 +32,10 @@ void add_scene(const Scene& scene, FrameConstants& c) {
     c.has_alpha = any_material(scene, material_alpha_mask | material_alpha_blend);
     c.has_transmission = std::any_of(scene.materials.begin(), scene.materials.end(),
                                      [](const Material& m) { return m.transmission > 0; });
-    c.has_mesh_lamps = !scene.emitters.empty();
-    c.has_profiles = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                 [](const Light& light) { return light.type == light_profile; });
+    c.has_area_lamps =
+        std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) { return !is_delta(light.type); });
+    c.has_profiles =
+        std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) { return has_table(light.type); });
 }
 
 void add_map(const PhotonMap& map, FrameConstants& c) {
@@ -44,9 +45,6 @@ void add_map(const PhotonMap& map, FrameConstants& c) {
     c.has_shadow_masks = !map.shadow_masks.empty();
     c.has_caustics = map.caustic_grids > 0;
     c.has_smooth_caustics = !map.smooth_caustics.empty();
-    c.first_caustic_map = uint(map.grids.size()) - map.caustic_grids;
-    c.first_cut = map.first_cut(0, c.first_caustic_map);
-    c.first_caustic_cut = map.first_cut(c.first_caustic_map, uint(map.grids.size()));
 }
 
 }  // namespace

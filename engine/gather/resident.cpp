@@ -61,35 +61,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
-    set_light_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
-}
-
-void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh) {
-    constants_.has_uv0 = !scene.uv0.empty();
-    constants_.has_uv1 = !scene.uv1.empty();
-    constants_.has_colors = !scene.colors.empty();
-    constants_.has_tangents = !scene.tangents.empty();
-    constants_.has_textures = !scene.textures.empty();
-    constants_.has_directions = map.has_directions();
-    constants_.has_alpha = any_material(scene, material_alpha_mask | material_alpha_blend);
-    constants_.has_transmission = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                              [](const Material& m) { return m.transmission > 0; });
-    const bool can_follow = !bvh.nodes.empty();
-    min_lobe_ = can_follow ? min_roughness(scene) : 1.0f;
-    constants_.looks_through = can_follow && (constants_.has_transmission || any_material(scene, material_alpha_blend));
-    constants_.has_caustics = map.caustic_grids > 0;
-    constants_.has_smooth_caustics = !map.smooth_caustics.empty();
-    constants_.has_shadow_masks = !map.shadow_masks.empty();
-    constants_.has_area_lamps =
-        std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) { return !is_delta(light.type); });
-    constants_.has_profiles =
-        std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) { return has_table(light.type); });
-    constants_.has_metallic_roughness_textures = any_texture(scene, &Material::metallic_roughness_texture);
-    constants_.has_emissive_textures = any_texture(scene, &Material::emissive_texture);
-    constants_.has_transmission_textures = any_texture(scene, &Material::transmission_texture);
-    constants_.chunk_shift = std::min(27u, uint(std::bit_width(max_texels_)) - 1u);
-    constants_.chunks = chunk_count(map.places.size(), constants_.chunk_shift);
-    constants_.heap_size = 1;
+    set_lamp_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
 }
 
 /// Each record in so many texels of four words.

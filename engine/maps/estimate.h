@@ -51,7 +51,7 @@ class GatherText : public SurfaceReader {
 
     /// A copy with the lamps at other powers, which must outlive it. Not for the cached mode, whose cells hold sums
     /// over lamps.
-    GatherText with_powers(const std::vector<vec3>& light_powers) const {
+    GatherText with_powers(const std::vector<vec3>& lamp_powers) const {
         assert(gather_mode != gather_mode_cached);
         GatherText other = *this;
         other.powers_ = &lamp_powers;

@@ -37,7 +37,7 @@ void Gatherer::add_emission(const Surface& s, vec3 to_view, float weight, Gather
 }
 
 /// Adds the direct light of lamps that a surface reflects along the ray.
-void Gatherer::add_lamps(const Seen& at, LampChoice choice, Gathering& to) const {
+void Gatherer::add_lamps(const Seen& at, LampChoice choice, GatherRay& to) const {
     const Surface& s = at.surface;
     for (uint lamp = 0; lamp < scene_.lights.size(); ++lamp) {
         if (has_surface(scene_.lights[lamp].type) && choice == LampChoice::without_meshes) continue;
@@ -81,7 +81,7 @@ void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered,
 
 /// Adds the reflected light of the photons within half the search radius. A radius that does not depend on the photons
 /// keeps their sum unbiased, and rays average the noise at single points.
-void Gatherer::add_reflected(const Seen& at, Gathering& to) const {
+void Gatherer::add_reflected(const Seen& at, GatherRay& to) const {
     if (at.at.index == no_grid) return;
     const float radius = 0.5f * at.at.grid.radius;
     add_photons(at.at.grid, radius, maps_.covered_part(at.at, radius), at, true, to);
@@ -89,7 +89,7 @@ void Gatherer::add_reflected(const Seen& at, Gathering& to) const {
 
 /// Adds the reflected light of caustics, which are far sharper: from their own grids, with the bandwidth of a picture.
 /// with_meshes = false leaves out mesh lamps, which the path finds itself when it goes on.
-void Gatherer::add_caustics(const Seen& at, bool with_meshes, Gathering& to) const {
+void Gatherer::add_caustics(const Seen& at, bool with_meshes, GatherRay& to) const {
     const uint own = map_.caustic_grids > 0
                          ? maps_.behind_cuts(maps_.caustic_grid_of(at.triangle, at.front), at.surface.position)
                          : no_grid;
@@ -124,7 +124,7 @@ auto Gatherer::seen_from(vec3 to_view, const Hit& hit, const Surface& s) const -
 
 /// The path goes on through glass, at mirrors, and at surfaces too close or too small for the photons around to be
 /// used, as corners and furniture would come out too bright or too dark.
-void Gatherer::gather(vec3 origin, vec3 direction, Gathering& to) const {
+void Gatherer::gather(vec3 origin, vec3 direction, GatherRay& to) const {
     // Direct light of the sensor is already counted, but not light by a mirror or lens. After a surface from which the
     // path went on, lamps are found by samples and by the path.
     bool emission = false;

@@ -24,7 +24,7 @@ struct PhotonShares {
 };
 
 /// The state of a ray to the surroundings, and where its light is added.
-struct Gathering {
+struct GatherRay {
     vec3 throughput;           // lux of the sensor per radiance along the ray, RGB
     std::vector<vec3>& lamps;  // per lamp: lx for intensity 1, RGB
     PhotonShares& shares;
@@ -47,7 +47,7 @@ class Gatherer {
     const Emitters& emitters() const { return emitters_; }
 
     /// Follows a ray and adds its light to `to`.
-    void gather(vec3 origin, vec3 direction, Gathering& to) const;
+    void gather(vec3 origin, vec3 direction, GatherRay& to) const;
 
     /// Converts light of a lamp for intensity 1, RGB, to lux at the lamp's power in the file.
     ChannelLux file_lux(uint lamp, vec3 per_intensity) const {

@@ -48,7 +48,7 @@ class Probe {
     Probe(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh);
     ~Probe();
 
-    /// Measures at the point of the hit, on the side of its viewer. `powers`: RGB power of each lamp (light_powers()).
+    /// Measures at the point of the hit, on the side of its viewer. `powers`: RGB power of each lamp (lamp_powers()).
     Measurement measure(const std::vector<vec3>& powers, const SeenPlace& place) const;
     /// The same for many places at once.
     std::vector<Measurement> measure(const std::vector<vec3>& powers, std::span<const SeenPlace> places) const;

@@ -82,12 +82,8 @@ Scene with_photometry(Scene scene, const std::vector<std::string>& texts) {
     for (const std::string& text : texts) {
         const size_t equals = text.find('=');
         if (equals == std::string::npos) throw Error("--ies " + text + ": write LAMP=FILE");
-        const auto found = std::find(scene.light_names.begin(), scene.light_names.end(), text.substr(0, equals));
-        std::string names;
-        for (const std::string& name : scene.light_names) names += (names.empty() ? "" : ", ") + name;
-        if (found == scene.light_names.end())
-            throw Error("--ies " + text + ": no lamp of this name; there are: " + names);
-        Light& light = scene.lights[size_t(found - scene.light_names.begin())];
+        const size_t lamp = find_lamp(scene, text.substr(0, equals), "--ies " + text + ": no lamp of this name");
+        Light& light = scene.lights[lamp];
         if (!is_at_point(light.type))
             throw Error("--ies " + text + ": only a point or spot lamp can have a photometric file");
         const std::filesystem::path file = text.substr(equals + 1);
