@@ -1,4 +1,4 @@
-// Numbers that stand for a colour of linear RGB, shared by C++ and GLSL.
+// Luminance and other scalars of a linear RGB colour, shared by C++ and GLSL.
 #ifndef LW_COLOR_H
 #define LW_COLOR_H
 #include "types.h"
@@ -6,10 +6,10 @@
 namespace lw {
 #endif
 
-/// Of the channels of linear sRGB, Rec. 709.
+/// The weights of red, green and blue in luminance, Rec. 709.
 LW_CONST vec3 luminance_weights = vec3(0.2126f, 0.7152f, 0.0722f);
 
-/// cd/m2 of radiance, lux of irradiance, lm of flux.
+/// The luminance-weighted sum of the channels: radiance gives cd/m2, irradiance lux, flux lm.
 LW_INLINE float luminance(vec3 rgb) { return dot(rgb, luminance_weights); }
 
 /// The largest of the channels.

@@ -13,17 +13,18 @@ Gathered no_light() LW_MEMBER {
     return nothing;
 }
 
-/// True for a photon that no followed ray can stand for: a ray may meet a mirrored mesh lamp, but no mirrored point or
-/// sun.
+/// True for a caustic photon of a point or sun. Followed rays cannot find its light, as they meet mirrored mesh lamps
+/// but no mirrored points; so the estimate keeps its specular part.
 bool is_unseen_by_rays(Surface s, PhotonPlace photon) LW_MEMBER {
     if (!has_caustics || path_of(photon) != path_caustic || s.roughness * s.roughness < min_alpha) return false;
     return light_at(light_of(photon)).type != light_mesh;
 }
 
-/// True where rays bring what the specular lobe reflects, so that estimates have to leave it out.
+/// True where followed rays bring the light of the specular lobe, so that estimates must leave it out.
 bool leaves_lobe_out(Surface s) LW_MEMBER { return has_followed && (s.flags & lobe_is_followed) != 0u; }
 
-/// Adds photon `i` of the record `place`, weighted by `kernel`, to sums that add_up() completes.
+/// Adds photon `i`, whose place record is `place`, to `sum`. `kernel`: its kernel weight without the common factor,
+/// which add_up() applies.
 void add_photon(uint i, PhotonPlace place, float kernel, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
     vec3 flux = unpack_rgb9e5(photon_flux(i)) * lamp_power(light_of(place)) * kernel;
@@ -34,22 +35,22 @@ void add_photon(uint i, PhotonPlace place, float kernel, Surface s, vec3 n_geome
     vec3 to_light = unpack_direction(photon_direction(i));
     float cos_shading = dot(n_shading, to_light);
     float cos_geometric = max(dot(n_geometric, to_light), 0.05f);
-    float tilt = clamp(cos_shading / cos_geometric, 0.0f, 2.0f);  // irradiance on the shading normal's plane
+    float tilt = clamp(cos_shading / cos_geometric, 0.0f, 2.0f);  // turns irradiance to the plane of the shading normal
     BrdfParts f = brdf_parts(s, n_shading, to_view, to_light);
     sum.radiance += flux * tilt * (lobe_left_out ? f.diffuse : f.diffuse + f.specular);
 }
 
-/// Brings sums of flux to irradiance and radiance; `peak` (1/m2) is what all kernels have in common.
+/// Completes the sums of add_photon(): multiplies them by `peak`, the common factor of the kernel weights, 1/m2.
 void add_up(float peak, Surface s, vec3 n_shading, vec3 to_view, LW_INOUT(Gathered) sum) LW_MEMBER {
-    float scale = min(peak * inverse_flux_scale, 1e30f);  // a number, however small the kernel
+    float scale = min(peak * inverse_flux_scale, 1e30f);  // finite, however small the kernel
     sum.irradiance *= scale;
     sum.radiance *= scale;
     if (!has_directions) sum.radiance = sum.irradiance * eval_brdf(s, n_shading, to_view, n_shading, true);
 }
 
-/// Exact k nearest photons with a bounded max-heap, nearest cells first; sum over the k-1 nearer ones / (pi r_k^2),
-/// the unbiased estimate (Garcia et al. 2012). With fewer than k photons inside the map's radius: all of them over its
-/// disc.
+/// The exact mode: finds the k nearest photons with a bounded max-heap, nearest cells first. The estimate is the sum
+/// over the k - 1 nearer ones / (pi r_k^2), which is unbiased (Garcia et al. 2012). When fewer than k photons lie
+/// within the search radius: all of them over the disc of that radius.
 Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading,
                       vec3 to_view) LW_MEMBER {
     float heap_distance[heap_size];
@@ -113,7 +114,7 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
     return sum;
 }
 
-/// One pass with the kernel of kernel.h, no heap.
+/// The smooth mode: one pass over the photons within the bandwidth, with the kernel of kernel.h and without a heap.
 Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric, vec3 n_shading,
                        vec3 to_view) LW_MEMBER {
     Gathered nothing = no_light();
@@ -129,7 +130,7 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
         int x0 = int(floor((local.x - half_width) / grid.cell_size));
         int x1 = int(floor((local.x + half_width) / grid.cell_size));
         uvec2 span = row_span(grid, x0, x1, y);
-        Gathered row = nothing;  // apart, so that sums of millions do not drift
+        Gathered row = nothing;  // summed by rows, so that rounding errors of millions of photons stay small
         for (uint i = span.x; i < span.y; ++i) {
             PhotonPlace place = photon_place(i);
             vec3 d = place_in_grid(place, grid) - local;
@@ -146,8 +147,8 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
     return sum;
 }
 
-/// The irradiance computed ahead at the corners of the cell, all lamps at their present power; light from all sides
-/// alike for the BRDF.
+/// The cached mode: blends the irradiance at the corners of the cell, which holds all lamps at their present powers.
+/// The BRDF is applied as for uniform light from all sides.
 Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
     uvec4 corners = cell_light(at.cell);
     vec3 low = mix(unpack_rgb9e5(corners.x), unpack_rgb9e5(corners.y), at.f.x);
@@ -165,8 +166,8 @@ Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_
     return sum;
 }
 
-/// Reflected radiance and irradiance at surface `s` from the photons around a place; zero when it is on no map.
-/// n_geometric and n_shading are turned to the viewer.
+/// Radiance towards `to_view` and irradiance at surface `s`, from the photons around the place `at`; zero when that is
+/// on no map. n_geometric and n_shading are on the side of the viewer.
 Gathered gather_photons(MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
     if (at.map == no_map) return no_light();
     if (gather_mode == gather_mode_cached) return gather_cached(at, s, n_shading, to_view);

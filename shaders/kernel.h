@@ -1,5 +1,5 @@
 // The kernel of all density estimates, shared by C++ and GLSL: Epanechnikov's, K(d) = 2 / (pi r^2) (1 - d^2 / r^2)
-// within the bandwidth r (Silverman 1986, section 4.2.1). Another kernel is written here and nowhere else.
+// within the bandwidth r (Silverman 1986, section 4.2.1). This is the only place that knows the kernel.
 #ifndef LW_KERNEL_H
 #define LW_KERNEL_H
 #include "types.h"

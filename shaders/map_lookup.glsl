@@ -1,6 +1,6 @@
-// Where a point lies in the maps, how many photons are around it and how much of a kernel there lies on surface. One
-// text for C++ and GLSL. The including scope provides the functions grid_at, is_cut (false for no_map), cell_start,
-// node_coverage and the constants neighbours, has_coverage. Needs photon_map.h.
+// Look-ups in the photon map: the patch and cell of a point, the bandwidth from the number of photons around it, and
+// the coverage of a kernel there. One text for C++ and GLSL. The including scope provides the functions grid_at, is_cut
+// (false for no_map), cell_start, node_coverage and the constants neighbours, has_coverage. Needs photon_map.h.
 
 ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
     return ivec2(int(floor(local.x / grid.cell_size)), int(floor(local.y / grid.cell_size)));
@@ -13,20 +13,21 @@ uvec2 row_span(SurfaceGrid grid, int x0, int x1, int y) LW_MEMBER {
     return uvec2(cell_start(row + uint(max(x0, 0))), cell_start(row + uint(min(x1, int(grid.columns) - 1)) + 1u));
 }
 
-/// True when the window of `ring` cells around `cell` covers the grid.
+/// True when the window that reaches `ring` cells beyond `cell` on each side covers the whole grid.
 bool covers_grid(SurfaceGrid grid, ivec2 cell, int ring) LW_MEMBER {
     return cell.x - ring <= 0 && cell.y - ring <= 0 && cell.x + ring >= int(grid.columns) - 1 &&
            cell.y + ring >= int(grid.rows) - 1;
 }
 
-/// The first ring of cells around `cell` that meets the grid. Few photons make small grids of small cells: rings that
-/// are empty for certain cost nothing.
+/// The first ring of cells around `cell` that meets the grid; 0 when the cell is in the grid. Grids of few photons are
+/// small with small cells, so many rings around a point outside would be empty.
 int first_ring(SurfaceGrid grid, ivec2 cell) LW_MEMBER {
     ivec2 beyond = max(-cell, cell - ivec2(int(grid.columns) - 1, int(grid.rows) - 1));
     return max(max(beyond.x, beyond.y), 0);
 }
 
-/// Radius that is expected to hold k photons, from the counts of a growing window of cells.
+/// The bandwidth, m: the radius of a disc that is expected to hold `neighbours` photons. A window of cells around the
+/// point grows until it holds 1.25 times as many; its area and count give the radius. At most grid.radius.
 float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
     ivec2 cell = cell_of(local, grid);
     float wanted = 1.25f * float(neighbours);
@@ -47,13 +48,15 @@ float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
         area = float(max(x1 - x0 + 1, 1)) * float(max(y1 - y0 + 1, 1)) * grid.cell_size * grid.cell_size;
         if (count >= wanted || covers_grid(grid, cell, ring)) break;
     }
-    if (count < wanted) return grid.radius;  // the grid ends where its photons do: their area says nothing
+    if (count < wanted)
+        return grid.radius;  // the grid ends where its photons end, so its area says nothing of their density
     return clamp(sqrt(float(neighbours) * area / (lw_pi * count)), min(0.5f * grid.cell_size, grid.radius),
                  grid.radius);
 }
 
-/// Radius that holds caustic_neighbours photons, from the counts of a growing window of cells. Few photons make small
-/// grids of small cells: the window starts where it meets the grid and grows in proportion.
+/// The same for a grid of caustics: the radius of a disc that is expected to hold caustic_neighbours photons, m. Grids
+/// of few photons are small with small cells, so the window starts where it meets the grid and grows by an eighth at a
+/// time.
 float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
     ivec2 cell = cell_of(local, grid);
     ivec2 last = ivec2(int(grid.columns) - 1, int(grid.rows) - 1);
@@ -81,7 +84,8 @@ float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
                  grid.radius);
 }
 
-/// The node below and left of a point, and in `f` where the point lies in the cell it begins.
+/// The lower left node of the lattice cell that holds a point. Sets `f` to the place of the point in the cell, 0 to 1
+/// along u and v. Points outside are moved to the border.
 uint cell_node(SurfaceLattice lattice, vec3 local, LW_INOUT(vec2) f) LW_MEMBER {
     vec2 last = vec2(float(lattice.columns - 1u), float(lattice.rows - 1u));
     vec2 at = clamp((vec2(local.x, local.y) - lattice.low) / lattice.step, vec2(0.0f), last);
@@ -90,16 +94,16 @@ uint cell_node(SurfaceLattice lattice, vec3 local, LW_INOUT(vec2) f) LW_MEMBER {
     return lattice.first_node + uint(base.y) * lattice.columns + uint(base.x);
 }
 
-/// Where a point lies on a map.
+/// Where a point lies on its patch.
 struct MapPlace {
-    uint map;  // or no_map, then nothing else holds
+    uint map;  // index of the grid, or no_map, when the other members mean nothing
     SurfaceGrid grid;
     vec3 local;  // u, v, h in the frame of the grid, m
-    uint cell;   // the lower left node of the cell of the lattice
-    vec2 f;      // where in the cell
+    uint cell;   // lower left node of the cell of the lattice
+    vec2 f;      // place in the cell, 0 to 1
 };
 
-/// The map of a point of a surface whose map may be cut.
+/// The grid of a point on a surface whose record is `map`: follows cuts until a grid, or no_map, is reached.
 uint map_at(uint map, vec3 position) LW_MEMBER {
     while (is_cut(map)) map = behind_cut(grid_at(map), position);
     return map;
@@ -108,13 +112,13 @@ uint map_at(uint map, vec3 position) LW_MEMBER {
 MapPlace place_on(uint map, vec3 position) LW_MEMBER {
     MapPlace at;
     at.map = map_at(map, position);
-    at.grid = grid_at(at.map == no_map ? 0u : at.map);  // anything, but there
+    at.grid = grid_at(at.map == no_map ? 0u : at.map);  // any record that exists
     at.local = position_in_grid(at.grid, position);
     at.cell = cell_node(at.grid.lattice, at.local, at.f);
     return at;
 }
 
-/// Coverage of the kernel of `radius` around a place, between the lattice's nodes.
+/// Coverage of a kernel of `radius` m around a place, interpolated between the nodes; at least min_coverage.
 float coverage_at(MapPlace at, float radius) LW_MEMBER {
     float fraction = radius / at.grid.radius;
     uint node = at.cell;
@@ -126,12 +130,11 @@ float coverage_at(MapPlace at, float radius) LW_MEMBER {
     return max(mix(low, high, at.f.y), min_coverage);
 }
 
-/// The part of the kernel of `radius` around a place that lies on surface light can reach; 1 where the map does not
-/// know.
+/// The coverage to divide an estimate by; 1 when the map has no coverage.
 float covered_part(MapPlace at, float radius) LW_MEMBER { return has_coverage ? coverage_at(at, radius) : 1.0f; }
 
-/// The same for a kernel on the grid of caustics of that surface: kernels much smaller than the coverage's least one
-/// hardly reach a border.
+/// The same for a kernel of `radius` m on the grid of caustics of that surface. Kernels much smaller than the smallest
+/// for which coverage is known hardly reach a border, so theirs tends to 1.
 float caustic_coverage(MapPlace at, SurfaceGrid caustics, float radius) LW_MEMBER {
     if (!has_coverage || at.map == no_map) return 1.0f;
     return mix(1.0f, coverage_at(at, radius), min(4.0f * radius / caustics.radius, 1.0f));

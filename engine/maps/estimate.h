@@ -1,6 +1,6 @@
-// Density estimation and direct light on the CPU: the text of the gather shader over a Scene and a PhotonMap. For tests
-// and the benchmark, to which it is the oracle of the shader, and for the light a viewer sees in the probe and in
-// reports. What only looks photons up takes maps/map_reader.h.
+// The light of a pixel on the CPU: the shaders' text of density estimation and direct light over a Scene and a
+// PhotonMap. Tests and the benchmark compare the shaders with it; the probe and reports use it for the light that a
+// viewer sees. Code that only looks up photons uses maps/map_reader.h.
 #pragma once
 #include <cassert>
 #include <memory>
@@ -15,16 +15,17 @@
 
 namespace lw {
 
-/// What the text reads, by kind.
+/// The kinds of records that the text reads.
 enum class Record { surface, grid, cell, photon, flux, direction, box, triangle, word };
 
-/// Lets all reads pass.
+/// A `Count` that does nothing.
 struct Uncounted {
     void operator()(Record) const {}
 };
 
-/// Photon estimate at surface points. Scene, map, hierarchy and powers must outlive it. `Count` is told of each record
-/// that is read. A SurfaceReader, as the text calls the functions of a surface by their names.
+/// The shaders' text with the functions and constants that it expects. It calls counted(kind), of type `Count`, for
+/// each record that it reads. It inherits SurfaceReader because the text calls the functions of a surface by name.
+/// Scene, map, hierarchy and powers must outlive it.
 template <class Count>
 class GatherText : public SurfaceReader {
   public:
@@ -48,7 +49,8 @@ class GatherText : public SurfaceReader {
         if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(lamp_powers, cell_light_);
     }
 
-    /// The same with the lamps at other powers, for the price of a copy. Not in the cached mode, whose cells hold sums.
+    /// A copy with the lamps at other powers, which must outlive it. Not for the cached mode, whose cells hold sums
+    /// over lamps.
     GatherText with_powers(const std::vector<vec3>& lamp_powers) const {
         assert(gather_mode != gather_mode_cached);
         GatherText other = *this;
@@ -97,8 +99,8 @@ class GatherText : public SurfaceReader {
 
 #include "shaders/follow.glsl"
 
-    /// The estimate at (triangle, barycentrics) seen from direction `to_view` (unit). `seed` picks the points on mesh
-    /// lamps, `pixel` the paths that go on.
+    /// All light from the point (triangle, barycentrics) in unit direction `to_view`. `seed` chooses the points on mesh
+    /// lamps, `pixel` the followed paths.
     Gathered estimate(uint triangle, vec2 barycentrics, vec3 to_view, uint seed = 0, uvec2 pixel = uvec2(0)) const {
         return shade(triangle, barycentrics, surface_at(triangle, barycentrics).position + to_view, seed, pixel);
     }
@@ -144,7 +146,7 @@ class GatherText : public SurfaceReader {
     bool has_direct = bvh_node_count > 0 && !map_.settings.direct_in_photons;
 };
 
-/// The estimate as tests and the probe read it.
+/// The estimate for tests and the probe.
 using PhotonEstimator = GatherText<Uncounted>;
 
 }  // namespace lw

@@ -1,5 +1,4 @@
-// How the photons of a map are turned into light: the settings that the shaders and the CPU estimate share, and the
-// names of the modes.
+// Settings of the gather, which shaders and CPU estimate share, and the table of its modes.
 #pragma once
 #include <compare>
 #include <string>
@@ -18,11 +17,11 @@ struct GatherSettings {
     uint paths = 1;                                     // per pixel along lobes that are followed
     float followed_roughness = max_followed_roughness;  // lobes of surfaces smoother than this, at most 1, are followed
 
-    /// Equal settings make the same picture. The order has no meaning but as that of a key.
+    /// Equal settings make the same picture. The order only serves as that of keys.
     auto operator<=>(const GatherSettings&) const = default;
 };
 
-/// Most neighbours of the exact mode, whose heap lies in registers or local memory.
+/// Most neighbours of the exact mode. Its heap is an array of this size in registers or local memory.
 inline constexpr uint max_exact_neighbours = 1024;
 
 /// A mode of the gather that makes a picture; gather_mode_inspect makes none.
@@ -33,30 +32,31 @@ struct GatherMode {
     const char* title;  // in a report
 };
 
-/// Every such mode, in the order in which they are offered.
+/// The table of all such modes, in the order in which they are offered.
 inline constexpr GatherMode gather_modes[] = {
     {gather_mode_exact, "exact", "k nearest photons", "exact photons"},
     {gather_mode_smooth, "smooth", "photons, one pass", "smooth photons"},
     {gather_mode_cached, "cached", "irradiance of the bake", "cached irradiance"},
 };
 
-/// The entry of one of them.
+/// The table's entry of a mode.
 const GatherMode& gather_mode(uint mode);
 /// The mode of a name. Throws Error naming it when there is none.
 uint gather_mode_named(const std::string& name);
-/// All names, for the check of an option; and what each means, for its help.
+/// The names of all modes, for the check of an option, and a text that explains them, for its help.
 std::vector<std::string> gather_mode_names();
 std::string gather_mode_help();
 
-/// Lobes of surfaces smoother than this glTF roughness, at most 1, are followed by rays: without shadow rays only
-/// mirrors.
+/// The glTF roughness, at most 1, below which specular lobes are followed by rays; without shadow rays only mirrors
+/// are.
 float followed_roughness(const GatherSettings& settings);
 
-/// Whether shadow rays are traced. Where the map does not know which lamps its nodes see, as one without photons, only
-/// rays tell what stands before a lamp.
+/// True when shadow rays are traced: when the settings say so, or when the map does not know which lamps its nodes see,
+/// as a map without photons.
 bool has_shadow_rays(const GatherSettings& settings, bool has_visible_lamps);
 
-/// The settings as far as a pipeline is compiled for them: where these are equal, pipelines can be shared.
+/// The settings with all members reset that pipelines are not compiled for. When the results are equal, pipelines can
+/// be shared.
 GatherSettings pipeline_settings(const GatherSettings& settings);
 
 }  // namespace lw

@@ -1,5 +1,5 @@
-// A photon map as the CPU looks it up: on which map a point lies, which photons are around it, how much of a kernel
-// there lies on surface. The text of shaders/map_lookup.glsl over a PhotonMap.
+// Look-ups in a photon map on the CPU: the patch of a point, the photons around it, the coverage of a kernel there. The
+// text of shaders/map_lookup.glsl over a PhotonMap.
 #pragma once
 #include "maps/gather_settings.h"
 #include "maps/photon_map.h"
@@ -11,16 +11,17 @@ namespace lw {
 /// it.
 class MapReader {
   public:
-    /// `neighbours`: photons that bandwidth_from_counts() looks for.
+    /// `neighbours_wanted`: photons that the disc of bandwidth_from_counts() should hold.
     explicit MapReader(const PhotonMap& map, uint neighbours_wanted = GatherSettings{}.neighbours)
         : neighbours(neighbours_wanted), has_coverage(map.has_coverage()), map_(map) {}
 
-    /// The map of a side of a triangle, or no_map; of its caustics, only where the map has some.
+    /// The grid or cut of a side of a triangle, or no_map. caustic_map_of(): that of its caustics, only for maps with
+    /// caustics.
     uint map_of(uint triangle, bool front) const { return map_.triangle_maps[2 * size_t(triangle) + (front ? 0 : 1)]; }
     uint caustic_map_of(uint triangle, bool front) const {
         return map_.caustic_map_of(2 * size_t(triangle) + (front ? 0 : 1));
     }
-    /// A grid without cells for no_map.
+    /// The grid or cut of this index; an empty one for no_map.
     const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : no_grid; }
     bool is_cut(uint map) const { return map < map_.grids.size() && map_.grids[map].columns == 0; }
     uint cell_start(uint cell) const { return map_.cell_starts[cell]; }
@@ -28,8 +29,8 @@ class MapReader {
 
 #include "shaders/map_lookup.glsl"
 
-    /// Calls visit(reference, place, squared distance) for the photons of a grid within `radius` of a point in its
-    /// frame that lie on the same surface.
+    /// Calls visit(reference, place, squared distance) for the photons of a grid that lie within `radius` m of a point
+    /// on the same surface. `local`: the point in the frame of the grid.
     template <class Visit>
     void visit_photons(const SurfaceGrid& grid, vec3 local, float radius, const Visit& visit) const {
         const vec3 reach(radius, radius, 0);

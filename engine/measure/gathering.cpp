@@ -11,12 +11,12 @@ namespace {
 
 constexpr int max_path = 64;
 constexpr float min_used_coverage = 0.75f;
-/// Noise of a narrow lobe is averaged over the rays, so it is widened less than in a picture: widening loses light at
-/// grazing angles.
+/// Least roughness of a lobe that reflects photons. Rays average the noise of narrow lobes, so it is lower than in a
+/// picture: a wider lobe loses light at grazing angles.
 constexpr float min_reflected_roughness = 0.2f;
-constexpr float min_direct_roughness = 0.1f;  // a mirror-like coat shows lamps a little widened
+constexpr float min_direct_roughness = 0.1f;  // least roughness for lamps, so that a mirror-like coat shows them
 
-/// The power heuristic: part of a sample of density `own` where another way has density `other`.
+/// The power heuristic: weight of a sample of pdf `own` that another technique would draw with pdf `other`.
 float share_of(float own, float other) { return own * own / (own * own + other * other); }
 
 }  // namespace
@@ -36,7 +36,7 @@ void Gatherer::add_emission(const Surface& s, vec3 to_view, float weight, Gather
     to.lamps[size_t(s.light)] += to.throughput * emitters_.radiance(s, to_view) * weight;
 }
 
-/// Light that lamps send to a surface around and it sends on.
+/// Adds the direct light of lamps that a surface reflects along the ray.
 void Gatherer::add_lamps(const Seen& at, LampChoice choice, GatherRay& to) const {
     const Surface& s = at.surface;
     for (uint lamp = 0; lamp < scene_.lights.size(); ++lamp) {
@@ -56,7 +56,8 @@ void Gatherer::add_lamps(const Seen& at, LampChoice choice, GatherRay& to) const
     }
 }
 
-/// Photons of a grid under a kernel of which the part `covered` lies on surface.
+/// Adds the reflected light of the photons of a grid within `radius` m. `covered`: the coverage of the kernel;
+/// with_meshes = false leaves out the photons of mesh lamps.
 void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered, const Seen& at, bool with_meshes,
                            GatherRay& to) const {
     const float r2 = radius * radius, peak = kernel_peak(r2) * (1 / map_.flux_scale) / covered;
@@ -78,16 +79,16 @@ void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered,
     });
 }
 
-/// Reflected light of the photons within half the radius of the map: a radius that does not follow the photons leaves
-/// their sum unbiased, and noise at one surface point is averaged over the rays.
+/// Adds the reflected light of the photons within half the search radius. A radius that does not depend on the photons
+/// keeps their sum unbiased, and rays average the noise at single points.
 void Gatherer::add_reflected(const Seen& at, GatherRay& to) const {
     if (at.at.map == no_map) return;
     const float radius = 0.5f * at.at.grid.radius;
     add_photons(at.at.grid, radius, maps_.covered_part(at.at, radius), at, true, to);
 }
 
-/// Light of lamps by mirrors and lenses alone, far sharper: from its own grids with the bandwidth of a picture. Meshes
-/// are left out where the path goes on and finds them itself.
+/// Adds the reflected light of caustics, which are far sharper: from their own grids, with the bandwidth of a picture.
+/// with_meshes = false leaves out mesh lamps, which the path finds itself when it goes on.
 void Gatherer::add_caustics(const Seen& at, bool with_meshes, GatherRay& to) const {
     const uint own = map_.caustic_grids > 0
                          ? maps_.map_at(maps_.caustic_map_of(at.triangle, at.front), at.surface.position)
@@ -98,11 +99,11 @@ void Gatherer::add_caustics(const Seen& at, bool with_meshes, GatherRay& to) con
     add_photons(grid, radius, maps_.caustic_coverage(at.at, grid, radius), at, with_meshes, to);
 }
 
-/// Whether the photons around a point speak for it: they lie on enough surface (the mean of the inverse of a small
-/// coverage is too large), and nothing stands between, or light would pass under walls.
+/// True when the photons around a point may be used: the coverage is not small (dividing by a small one is biased
+/// upwards), and nothing stands on the surface within the kernel, under which light would leak.
 bool Gatherer::is_resolved(const Seen& seen) const {
     constexpr int feelers = 6;
-    constexpr float reach = 1.2f;  // over cos 30 degrees, so that a wall between two feelers is met
+    constexpr float reach = 1.2f;  // more than 1 / cos 30 degrees, so that a wall between two rays is met
     if (seen.at.map == no_map) return true;
     const float radius = 0.5f * seen.at.grid.radius;
     if (maps_.covered_part(seen.at, radius) < min_used_coverage) return false;
@@ -113,7 +114,7 @@ bool Gatherer::is_resolved(const Seen& seen) const {
     return true;
 }
 
-/// The surface of a hit as a ray meets it that comes from `to_view`.
+/// The surface of a hit, for a ray that comes from unit direction `to_view`.
 auto Gatherer::seen_from(vec3 to_view, const Hit& hit, const Surface& s) const -> Seen {
     const bool front = dot(s.geometric_normal, to_view) >= 0;
     const vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal, n = front ? s.normal : -s.normal;
@@ -121,14 +122,14 @@ auto Gatherer::seen_from(vec3 to_view, const Hit& hit, const Surface& s) const -
     return {hit.triangle, s, at, to_view, n_geometric, dot(n, to_view) > 1e-4f ? n : n_geometric, front};
 }
 
-/// Through glass, over mirrors, and off surfaces that are closer or smaller than the photons resolve (else corners and
-/// furniture would be brighter or darker than they are).
+/// The path goes on through glass, at mirrors, and at surfaces too close or too small for the photons around to be
+/// used, as corners and furniture would come out too bright or too dark.
 void Gatherer::gather(vec3 origin, vec3 direction, GatherRay& to) const {
-    // Direct light of the sensor is already counted, but not what comes over a mirror or a lens; after a surface that
-    // was walked on from, lamps are found by both ways.
+    // Direct light of the sensor is already counted, but not light by a mirror or lens. After a surface from which the
+    // path went on, lamps are found by samples and by the path.
     bool emission = false;
-    vec3 medium(0);                    // absorption of what the ray goes through, 1/m
-    float density = 0, travelled = 0;  // of the last ray's direction, 0 for a mirror; m since it started
+    vec3 medium(0);                    // absorption of the medium that the ray is in, 1/m
+    float density = 0, travelled = 0;  // pdf of the last direction, 0 after a mirror; m travelled since
     for (int depth = 0; depth < max_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction);
         if (!hit) return;

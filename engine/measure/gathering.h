@@ -1,5 +1,6 @@
-// What a ray from a sensor brings back: followed to the first surface that photons can describe, where the photons of
-// the map and the direct light of the lamps say what each lamp sends on (final gathering; Jensen 2001, section 8.3.2).
+// Final gathering for sensors (Jensen 2001, section 8.3.2). A ray from a sensor is followed to the first surface at
+// which the photons of the map can be used; they and the direct light of the lamps give the radiance that each lamp
+// sends back along the ray.
 #pragma once
 #include <vector>
 
@@ -12,7 +13,8 @@
 
 namespace lw {
 
-/// What each photon brings to the sensor at hand, at the file's powers: the spread of the whole sum.
+/// The contribution of each photon to one sensor, summed over all its rays, at the powers in the file. The variance of
+/// the reading by photons follows from these.
 struct PhotonShares {
     explicit PhotonShares(size_t references) : lux(references, vec3(0)) {}
     void add(uint reference, ChannelLux value);
@@ -21,19 +23,20 @@ struct PhotonShares {
     std::vector<uint> touched;
 };
 
-/// A ray to the surroundings and what it brought so far.
+/// The state of a ray to the surroundings, and where its light is added.
 struct GatherRay {
-    vec3 throughput;           // lux per radiance and RGB
-    std::vector<vec3>& lamps;  // lx per unit intensity and RGB
+    vec3 throughput;           // lux of the sensor per radiance along the ray, RGB
+    std::vector<vec3>& lamps;  // per lamp: lx for intensity 1, RGB
     PhotonShares& shares;
     Rng& rng;
 };
 
-/// Which lamps light a surface around by their own samples: all; all but meshes, which its next ray finds; all, but
-/// meshes together with the next ray (multiple importance sampling, Veach 1997).
+/// Which lamps are sampled directly at a surface. all: every lamp. without_meshes: not meshes, which the next ray of
+/// the path finds. with_path: every lamp, meshes weighted against the next ray (multiple importance sampling, Veach
+/// 1997).
 enum class LampChoice { all, without_meshes, with_path };
 
-/// Gathers in one scene and map. Thread-safe. All references must outlive it.
+/// Follows the rays of sensors in one scene and map. Thread-safe. All references must outlive it.
 class Gatherer {
   public:
     Gatherer(const Scene& scene, const RayCaster& caster, const PhotonMap& map)
@@ -43,16 +46,16 @@ class Gatherer {
     const MapReader& maps() const { return maps_; }
     const Emitters& emitters() const { return emitters_; }
 
-    /// Follows a ray and adds what it brings.
+    /// Follows a ray and adds its light to `to`.
     void gather(vec3 origin, vec3 direction, GatherRay& to) const;
 
-    /// Light of one lamp per unit intensity and RGB as lux of its power in the file.
+    /// Converts light of a lamp for intensity 1, RGB, to lux at the lamp's power in the file.
     ChannelLux file_lux(uint lamp, vec3 per_intensity) const {
         return per_intensity * scene_.lights[lamp].intensity * luminance_weights;
     }
 
   private:
-    /// A surface as a ray meets it.
+    /// A surface that a ray has met.
     struct Seen {
         uint triangle;
         Surface surface;

@@ -15,12 +15,12 @@
 namespace lw {
 namespace {
 
-/// Bias of the reflected light, in radii of the map over the size of the scene: measured against the path tracer
-/// (docs/measuring.md), 0.7 % in data/apartment.glb with 200,000 photons.
+/// Relative bias of the reflected light is taken as this times the search radius over the size of the scene. Measured
+/// against the path tracer (docs/measuring.md): 0.7 % in data/apartment.glb with 200,000 photons.
 constexpr float bias_of_kernels = 0.2f;
 constexpr float blocked_within = 0.02f;  // m
-constexpr int looks_around = 16;  // of 4 rays: a corner leaves a quarter of the view, which one look often misses
-constexpr float narrower = 0.5f;  // the second kernel of a caustic, whose difference tells of the blur
+constexpr int looks_around = 16;  // of 4 rays each: in a corner a quarter of the view is free, which one look may miss
+constexpr float narrower = 0.5f;  // second kernel radius for caustics over the first; the difference measures blur
 
 /// Light meter over one scene and map. Thread-safe.
 class LightMeter {
@@ -50,9 +50,9 @@ class LightMeter {
     std::vector<float> path_correlation_;
 };
 
-/// Photons of one path are not independent. With r photons stored per path, geometrically distributed, the variance of
-/// a sum over paths is up to 1 + 2 r times that of as many independent photons, where all photons of a path count
-/// alike; a sensor sees some of them: 1 + r.
+/// For each lamp: the factor on the variance because photons of one path are not independent. With r photons stored per
+/// path, geometrically distributed, the variance of a sum is up to 1 + 2 r times that of as many independent photons,
+/// if all photons of a path count equally. A sensor sees some of them: 1 + r is used.
 std::vector<float> LightMeter::correlation_of_paths(const Scene& scene, const PhotonMap& map) {
     std::vector<double> references(scene.lights.size(), 0);
     for (const PhotonPlace& place : map.places) references[light_of(place)] += 1;
@@ -64,7 +64,7 @@ std::vector<float> LightMeter::correlation_of_paths(const Scene& scene, const Ph
     return correlation;
 }
 
-/// Lux per unit intensity that a lamp sends straight to a sensor.
+/// Direct light of a lamp at a sensor, lux for intensity 1, RGB.
 vec3 LightMeter::direct(uint lamp, const Sensor& sensor, uint samples, uint32_t scramble) const {
     if (scene_.lights[lamp].type != light_mesh) samples = 1;
     vec3 sum(0);
@@ -80,7 +80,7 @@ vec3 LightMeter::direct(uint lamp, const Sensor& sensor, uint samples, uint32_t 
     return sum / float(samples);
 }
 
-/// One of the independent repetitions: quasi-random rays (Owen 1997) of their own scrambling.
+/// Adds one of the independent repetitions: quasi-random rays with a scrambling of their own (Owen 1997).
 void LightMeter::add_repetition(const Sensor& sensor, uint64_t stream, uint r, const MeterSettings& settings,
                                 PhotonShares& shares, Reading& reading) const {
     const size_t count = scene_.lights.size();
@@ -112,8 +112,8 @@ void LightMeter::add_repetition(const Sensor& sensor, uint64_t stream, uint r, c
     }
 }
 
-/// Light that points, spots and suns send over mirrors and through lenses to the surface a sensor measures: no ray from
-/// the sensor finds them, but their photons lie there.
+/// Adds the caustics of points, spots and suns on the surface that a sensor measures. No ray from the sensor finds
+/// these lamps, but their photons lie on the surface.
 void LightMeter::add_caustic_on(const Sensor& sensor, PhotonShares& shares, Reading& reading) const {
     const SurfaceReader& surfaces = gatherer_.surfaces();
     const MapReader& maps = gatherer_.maps();
@@ -177,7 +177,7 @@ Reading LightMeter::read(const Sensor& asked, size_t index, const MeterSettings&
         add_repetition(sensor, index * repetitions + r, r, settings, shares, reading);
     add_caustic_on(sensor, shares, reading);
     finish(shares, reading);
-    // Back sides all around may also be a room whose faces are turned: then there is light.
+    // When all surfaces show their back the sensor may also be in a room whose faces are turned; then there is light.
     reading.blocked = reading.blocked || (is_dark(reading) && is_inside(surfaces, caster_, sensor));
     return reading;
 }

@@ -11,16 +11,17 @@
 namespace lw {
 
 struct MeterSettings {
-    uint rays = 1024;  // to the surroundings, and half as many to each emissive mesh; a multiple of `repetitions`
+    uint rays = 1024;  // rays to the surroundings, and half as many to each emissive mesh; a multiple of `repetitions`
     uint64_t seed = 1;
 };
 
-/// Reads all sensors; the same result at any thread count. Throws Error when interrupted.
+/// Reads all sensors: one reading each, in their order. The result does not depend on the number of threads. Throws
+/// Error when interrupted.
 std::vector<Reading> read_sensors(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
                                   std::span<const Sensor> sensors, const MeterSettings& settings);
 
-/// The part of the lamps' light that reached surfaces over mirrors or lenses from points and suns: a sensor in the air
-/// cannot see it. 0 to 1, of the reflected light at the file's powers.
+/// The part, 0 to 1, of all reflected light (at the powers in the file) that points and suns send to surfaces by way of
+/// mirrors or lenses. A sensor in the air cannot measure this light.
 double share_of_caustics(const Scene& scene, const PhotonMap& map);
 
 }  // namespace lw

@@ -1,6 +1,6 @@
-// A light meter in the scene: illuminance at one point with the share of each lamp and a confidence interval from the
-// same photons. More careful and slower than a pixel: all lamps' direct light by many rays, reflected light by the
-// smooth estimate at two bandwidths, whose difference tells of its bias.
+// A light meter for a point of a surface: illuminance with the share of each lamp, and a 90 % interval from the same
+// photons. More accurate and slower than a pixel: direct light of all lamps by many rays, reflected light by the smooth
+// estimate at two bandwidths, whose difference measures the bias.
 #pragma once
 #include <memory>
 #include <optional>
@@ -15,7 +15,7 @@ namespace lw {
 
 struct LampShare {
     float lux = 0;
-    float direct_lux = 0;  // of these, straight from the lamp
+    float direct_lux = 0;  // the part of lux that comes straight from the lamp
 };
 
 struct Measurement {
@@ -30,28 +30,30 @@ struct Measurement {
     std::vector<LampShare> lamps;
 };
 
-/// What a view ray along unit `direction` meets, glass and holes looked through as the picture does.
+/// The first surface that a view ray along unit `direction` meets. Glass and holes are looked through, as in the
+/// picture.
 std::optional<Hit> seen_from(const Scene& scene, const RayCaster& caster, vec3 origin, vec3 direction);
 
-/// A point of a surface and from where it is looked at.
+/// A point of a surface, and the place of the viewer, m.
 struct SeenPlace {
     Hit hit;
     vec3 viewer;
 };
 
-/// The meter of one scene and map: made once, it reads at any powers of the lamps. Thread-safe.
+/// The probe for one scene and map. It is made once and measures at any powers of the lamps. Thread-safe.
 class Probe {
   public:
-    /// All four must outlive it. Finds which lamps each cell of the map sees, which takes as long as some readings.
+    /// All four arguments must outlive it. Finds which lamps each cell of the map sees, which takes about as long as
+    /// some measurements.
     Probe(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const Bvh& bvh);
     ~Probe();
 
-    /// Measures where a hit lies, on the side of its viewer. `powers`: RGB power of each lamp (lamp_powers()).
+    /// Measures at the point of the hit, on the side of its viewer. `powers`: RGB power of each lamp (lamp_powers()).
     Measurement measure(const std::vector<vec3>& powers, const SeenPlace& place) const;
     /// The same for many places at once.
     std::vector<Measurement> measure(const std::vector<vec3>& powers, std::span<const SeenPlace> places) const;
 
-    struct Parts;  // what readings have in common
+    struct Parts;  // data that all measurements share
 
   private:
     std::unique_ptr<const Parts> parts_;
