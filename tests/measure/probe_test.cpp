@@ -103,9 +103,9 @@ TEST(Probe, SharesAddUpToTheWholeAndFollowTheirLamps) {
     float sum = 0;
     for (const LampShare& share : all.lamps) sum += share.lux;
     EXPECT_NEAR(sum, all.lux, 1e-4f * all.lux);
-    for (size_t lamp = 0; lamp < weights.size(); ++lamp) {
-        std::vector<vec3> one(weights.size(), vec3(0));
-        one[lamp] = weights[lamp];
+    for (size_t lamp = 0; lamp < powers.size(); ++lamp) {
+        std::vector<vec3> one(powers.size(), vec3(0));
+        one[lamp] = powers[lamp];
         const Measurement alone = probe.measure(one, place);
         EXPECT_NEAR(alone.lux, all.lamps[lamp].lux, 1e-4f * all.lux) << b.scene.light_names[lamp];
     }
