@@ -5,7 +5,7 @@
 
 #include "benchmark/lab_scene.h"
 #include "maps/bake.h"
-#include "maps/plane_maps.h"
+#include "maps/plane_grids.h"
 #include "trace/ray_caster.h"
 
 namespace lw::test {
