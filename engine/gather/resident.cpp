@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "gather/bindings.h"
 #include "gather/device_fit.h"
+#include "gpu/commands.h"
 
 namespace lw {
 namespace {
@@ -71,6 +72,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
+    if (cells_) lamp_sum_.emplace(device, scene, map, *cells_);
     set_light_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
 }
 
@@ -260,39 +262,43 @@ void Resident::set_light_factors(std::span<const float> factors, uint setting) {
 }
 
 void Resident::set_light_factors(std::span<const vec3> factors, uint setting) {
+    submit_and_wait(*device_,
+                    [&](vk::CommandBuffer commands) { record_light_factors(commands, factors, setting, true); });
+}
+
+void Resident::record_light_factors(vk::CommandBuffer commands, std::span<const vec3> factors, uint setting,
+                                    bool whole) {
     assert(factors.size() == scene_->lights.size());
     Lamps& lamps = lamps_[setting];
-    const bool first = lamps.powers.size() == 0;
-    if (!first && std::equal(factors.begin(), factors.end(), lamps.factors.begin())) return;
-    if (first) make_lamps(setting);
+    if (lamps.powers.size() == 0) make_lamps(setting);
+    std::vector<vec3> powers;
+    for (size_t i = 0; i < factors.size(); ++i) powers.push_back(scene_->lights[i].intensity * factors[i]);
+    if (lamps.sum) lamp_sum_->record(commands, *lamps.sum, powers, whole);
+    if (std::equal(factors.begin(), factors.end(), lamps.factors.begin(), lamps.factors.end())) return;
     lamps.factors.assign(factors.begin(), factors.end());
-    std::vector<LampPower> powers;
-    std::vector<vec3> weights;
-    for (size_t i = 0; i < factors.size(); ++i) {
-        weights.push_back(scene_->lights[i].intensity * factors[i]);
-        powers.push_back({vec4(weights[i], 0), vec4(factors[i], 0)});
-    }
-    write_cells(lamps, weights);
-    write_bytes(*device_, lamps.powers, powers.data(), powers.size() * sizeof(LampPower));
+    std::vector<LampPower> records;
+    for (size_t i = 0; i < factors.size(); ++i) records.push_back({vec4(powers[i], 0), vec4(factors[i], 0)});
+    record_update(commands, lamps.powers, std::span<const LampPower>(records));
 }
 
 void Resident::make_lamps(uint setting) {
     Lamps& lamps = lamps_[setting];
-    const size_t lights = std::max<size_t>(1, scene_->lights.size()), cells = cells_ ? map_->coverage.size() : 0;
+    const size_t lights = std::max<size_t>(1, scene_->lights.size());
     lamps.powers = Buffer(*device_, lights * sizeof(LampPower), "powers of lamps");
-    lamps.cells = cells > 0 ? Buffer(*device_, cells * sizeof(uvec4), "light of cells")
-                            : upload(*device_, std::span<const uvec4>(), "light of cells");
+    if (lamp_sum_)
+        lamps.sum = lamp_sum_->make_setting();
+    else
+        lamps.no_cells = upload(*device_, std::span<const uvec4>(), "light of cells");
     views_.push_back(view_as_texels(*device_, lamps.powers, vk::Format::eR32G32B32A32Sfloat));
     descriptors_[setting].set_texels(binding_lamp_powers, *views_.back());
-    views_.push_back(view_as_texels(*device_, lamps.cells, vk::Format::eR32G32B32A32Uint));
+    const Buffer& cells = lamps.sum ? lamps.sum->cells : lamps.no_cells;
+    views_.push_back(view_as_texels(*device_, cells, vk::Format::eR32G32B32A32Uint));
     descriptors_[setting].set_texels(binding_cell_light, *views_.back());
 }
 
-void Resident::write_cells(Lamps& lamps, std::span<const vec3> weights) const {
-    if (!cells_) return;
-    std::vector<uvec4> light;
-    lamps.inverse_irradiance_scale = 1 / cells_->sum(weights, light);
-    write_bytes(*device_, lamps.cells, light.data(), light.size() * sizeof(uvec4));
+float Resident::inverse_irradiance_scale(uint setting) const {
+    const Lamps& lamps = lamps_[setting];
+    return lamps.sum ? 1 / lamp_sum_->record_scale(*lamps.sum) : 1.0f;
 }
 
 uint64_t Resident::ray_bytes() const { return acceleration_ ? acceleration_->bytes() + list_of_rays_ : list_of_rays_; }
@@ -301,7 +307,8 @@ uint64_t Resident::bytes() const {
     uint64_t sum = 0;
     for (const Buffer& buffer : buffers_) sum += buffer.size();
     if (acceleration_) sum += acceleration_->bytes();
-    for (const Lamps& lamps : lamps_) sum += lamps.powers.size() + lamps.cells.size();
+    if (lamp_sum_) sum += lamp_sum_->bytes();
+    for (const Lamps& lamps : lamps_) sum += lamps.powers.size() + (lamps.sum ? lamps.sum->bytes() : 0);
     return sum;
 }
 

@@ -38,9 +38,7 @@ struct Strip {
         grid = frame;
         starts = fill_grid(grid, photons, chosen, begin, map);
     }
-    uint end_of(size_t cell) const {
-        return cell + 1 < starts.size() ? starts[cell + 1] : begin + uint(chosen.size());
-    }
+    uint end_of(size_t cell) const { return cell + 1 < starts.size() ? starts[cell + 1] : begin + uint(chosen.size()); }
 
     static constexpr uint begin = 5;
     SurfaceGrid frame{}, grid{};
@@ -69,7 +67,8 @@ TEST(FillGrid, EveryRecordLiesInItsCell) {
     for (size_t cell = 0; cell < strip.starts.size(); ++cell)
         for (uint i = strip.starts[cell]; i < strip.end_of(cell); ++i) {
             const vec3 local = place_in_grid(strip.map.places[i], strip.grid);
-            const vec2 low = strip.grid.cell_size * vec2(float(cell % strip.grid.columns), float(cell / strip.grid.columns));
+            const vec2 low =
+                strip.grid.cell_size * vec2(float(cell % strip.grid.columns), float(cell / strip.grid.columns));
             const float margin = 1e-4f * strip.grid.cell_size;
             EXPECT_TRUE(local.x >= low.x - margin && local.x <= low.x + strip.grid.cell_size + margin) << i;
             EXPECT_TRUE(local.y >= low.y - margin && local.y <= low.y + strip.grid.cell_size + margin) << i;

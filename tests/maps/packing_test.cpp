@@ -75,8 +75,8 @@ TEST(PackedDirection, IsRightInTheMeanOfTheDither) {
         const vec3 direction = random_direction(rng);
         vec3 mean(0);
         for (int k = 0; k < 256; ++k)
-            mean += unpack_direction(
-                pack_direction(direction, vec2(float(k % 16) + 0.5f, float(k / 16) + 0.5f) / 16.0f));
+            mean +=
+                unpack_direction(pack_direction(direction, vec2(float(k % 16) + 0.5f, float(k / 16) + 0.5f) / 16.0f));
         ASSERT_LT(length(normalize(mean) - direction), glm::radians(0.15f));
     }
 }

@@ -26,7 +26,8 @@ struct Sheets {
                         z = dense ? 0.7f + 0.05f * rng.next() : 2 * rng.next();
             const float y = 0.02f * std::sin(5 * x) + (rng.next() < 0.3f ? 0.1f : 0.0f);
             const vec3 flux = 10.0f * vec3(rng.next(), rng.next(), rng.next());
-            photons.push_back({vec3(x, y, z), flux, vec3(0, 1, 0), 0, pack_origin(uint(i) % lamps, path_direct, false)});
+            photons.push_back(
+                {vec3(x, y, z), flux, vec3(0, 1, 0), 0, pack_origin(uint(i) % lamps, path_direct, false)});
         }
         map.settings.radius = 0.5f;
         map.places.resize(count), map.fluxes.resize(count);

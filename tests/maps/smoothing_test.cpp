@@ -58,7 +58,8 @@ TEST(Smoothing, KeepsConstantsUpToTheRim) {
     for (float value : {1e-6f, 1.0f, 3e4f}) {
         const LatticePlanes after = smooth(plane_of([=](uint, uint) { return value; }));
         for (uint y = 0; y < rows; ++y)
-            for (uint x = 0; x < columns; ++x) ASSERT_NEAR(after.row(0, int(y))[x], value, 1e-5f * value) << x << "," << y;
+            for (uint x = 0; x < columns; ++x)
+                ASSERT_NEAR(after.row(0, int(y))[x], value, 1e-5f * value) << x << "," << y;
     }
 }
 
@@ -71,8 +72,7 @@ TEST(Smoothing, DarknessStaysDark) {
 TEST(Smoothing, NodesThatDoNotExistDoNotCount) {
     const auto is_hole = [](uint x, uint y) { return (x * 7 + y * 3) % 5 == 0; };
     const LatticePlanes light = plane_of([&](uint x, uint y) { return is_hole(x, y) ? 2.04f : 2.0f; });
-    const LatticePlanes after =
-        smooth(light, plane_of([&](uint x, uint y) { return is_hole(x, y) ? 0 : 1; }));
+    const LatticePlanes after = smooth(light, plane_of([&](uint x, uint y) { return is_hole(x, y) ? 0 : 1; }));
     for (uint y = 0; y < rows; ++y)
         for (uint x = 0; x < columns; ++x)
             if (!is_hole(x, y)) {
