@@ -4,6 +4,8 @@
 //
 // Arrays read at random are texel buffers, records whole texels: a software rasterizer fetches four words of a texel in
 // the time of one word of a storage buffer.
+//
+// clang-format off: a row that is broken has two lines, and compilers differ in which of them counts.
 
 // The scene and its map, set 0 (gather/resident). Corners are three per triangle, without indices.
 LW_BINDING(scene, corners, texels, 1, all_stages)       // RGBA32F twice: position and u, normal and v of uv0
@@ -54,3 +56,16 @@ LW_BINDING(view, view_other, texels, 1, compute)  // B, or what an estimate stan
 LW_BINDING(view, view_visibility, image, 1, compute)
 LW_BINDING(view, view_screen, storage, 1, compute)    // what the window shows, 8 bits a channel
 LW_BINDING(view, view_readback, storage, 1, compute)  // ReadbackPixel
+
+// The sum over lamps at the lattice, set 0 of its two passes (lamp_sum.h, gather/lamp_sum).
+LW_BINDING(lamp_sum, irradiance_marks, texels, 1, compute)     // RG32: marks and starts of PhotonMap::irradiance
+LW_BINDING(lamp_sum, irradiance_values, texels, 1, compute)    // R32, RGB9E5
+LW_BINDING(lamp_sum, direct_marks, texels, 1, compute)         // RG32: marks and starts of CellLight::direct()
+LW_BINDING(lamp_sum, direct_values, texels, 1, compute)        // R32, bits of a float
+LW_BINDING(lamp_sum, lattice_columns, texels, 1, compute)      // R32 per node: columns, 0 where no cell begins
+LW_BINDING(lamp_sum, sum_cell_words, texels, 1, compute)       // R32, as cell_words
+LW_BINDING(lamp_sum, lamp_terms, storage, 1, compute)          // LampTerm
+LW_BINDING(lamp_sum, node_sums, storage_window, 1, compute)    // vec4 per node: RGB
+LW_BINDING(lamp_sum, node_sum_texels, texels, 1, compute)      // the same as RGBA32F texels
+LW_BINDING(lamp_sum, cell_direct, storage_window, 1, compute)  // vec3, four per cell
+LW_BINDING(lamp_sum, cell_sums, storage_window, 1, compute)    // uvec4 per cell, as cell_light

@@ -205,6 +205,26 @@ LW_INLINE vec3 unpack_rgb9e5(uint bits) {
     return vec3(float(bits & 0x1ffu), float((bits >> 9) & 0x1ffu), float((bits >> 18) & 0x1ffu)) * scale;
 }
 
+/// Nearest RGB9E5 of a colour; negative and NaN become 0, too large is clamped (Vulkan 1.3 specification, 'RGB to
+/// shared exponent').
+LW_INLINE uint pack_rgb9e5(vec3 color) {
+    float largest = 65408.0f;  // (2^9 - 1) / 2^9 * 2^16
+    vec3 c = vec3(color.x > 0.0f ? min(color.x, largest) : 0.0f, color.y > 0.0f ? min(color.y, largest) : 0.0f,
+                  color.z > 0.0f ? min(color.z, largest) : 0.0f);
+    float top = max(max(c.x, c.y), c.z);
+    if (!(top > 0.0f)) return 0u;
+    int exponent = max(-16, int(floatBitsToUint(top) >> 23) - 127) + 16;
+    float scale = uintBitsToFloat(uint(127 + 24 - exponent) << 23);  // steps per unit
+    if (top * scale + 0.5f >= 512.0f) {
+        ++exponent;
+        scale = uintBitsToFloat(uint(127 + 24 - exponent) << 23);
+    }
+    uint r = min(uint(c.x * scale + 0.5f), 511u);
+    uint g = min(uint(c.y * scale + 0.5f), 511u);
+    uint b = min(uint(c.z * scale + 0.5f), 511u);
+    return r | g << 9 | b << 18 | uint(exponent) << 27;
+}
+
 /// Unit vector from 8 + 8 bits of an octahedral map (Cigolle et al. 2014), 0 to 254, which part neighbours
 /// by 0.6 to 1.9 degrees. They are dithered: right in the mean of many photons.
 LW_INLINE vec3 unpack_direction(uint bits) {

@@ -6,7 +6,8 @@ namespace lw {
 namespace {
 
 constexpr auto texels = vk::DescriptorType::eUniformTexelBuffer, storage = vk::DescriptorType::eStorageBuffer,
-               image = vk::DescriptorType::eSampledImage, hierarchy = vk::DescriptorType::eAccelerationStructureKHR;
+               storage_window = vk::DescriptorType::eStorageBufferDynamic, image = vk::DescriptorType::eSampledImage,
+               hierarchy = vk::DescriptorType::eAccelerationStructureKHR;
 constexpr vk::ShaderStageFlags vertex = vk::ShaderStageFlagBits::eVertex, compute = vk::ShaderStageFlagBits::eCompute,
                                all_stages = vertex | vk::ShaderStageFlagBits::eFragment | compute;
 

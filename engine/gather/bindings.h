@@ -6,7 +6,7 @@
 
 namespace lw {
 
-enum class BindingSet { scene, picture, cull, view };
+enum class BindingSet { scene, picture, cull, view, lamp_sum };
 
 /// The bindings of one descriptor set, in the order of the table.
 std::vector<Binding> bindings_of(BindingSet set);

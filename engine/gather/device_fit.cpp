@@ -24,8 +24,8 @@ uint64_t list_bytes(const Scene& scene) {
     return clusters * (sizeof(Cluster) + blocks_per_cluster * sizeof(Survivors) + cluster_triangles * sizeof(uint));
 }
 
-/// Bytes that the scene and the map take on the device: corners of triangles, textures, the map with the light of its
-/// cells.
+/// Bytes that the scene and the map take on the device: corners of triangles, textures, the map with the sums of
+/// its lamps.
 uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size()) * sizeof(v[0]); };
     // For an acceleration structure and its build; on Mesa's software rasterizer 70 bytes remain after the build.
@@ -33,7 +33,8 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
     const uint64_t corner = 32 + (s.uv1.empty() ? 0 : 8) + (s.colors.empty() ? 0 : 16) + (s.tangents.empty() ? 0 : 16);
     return s.triangles.size() * (3 * corner + sizeof(uvec4) + rays_per_triangle) + list_bytes(s) + bytes(s.texels) +
            m.bytes() +
-           m.coverage.size() * (sizeof(uvec4) + cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
+           m.coverage.size() * (sizeof(uvec4) + sizeof(vec4) + sizeof(uint) +
+                                cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
 }
 
 /// The number of photons, to one significant digit, of a map that fits into the budget beside `others` bytes. Assumes

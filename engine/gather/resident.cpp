@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "gather/bindings.h"
 #include "gather/device_fit.h"
+#include "gpu/commands.h"
 
 namespace lw {
 namespace {
@@ -61,7 +62,38 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     upload_scene(scene);
     upload_map(map);
     upload_direct(scene, bvh);
-    set_lamp_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
+    if (cells_) lamp_sum_.emplace(device, scene, map, *cells_);
+    set_light_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
+}
+
+void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh) {
+    constants_.has_uv0 = !scene.uv0.empty();
+    constants_.has_uv1 = !scene.uv1.empty();
+    constants_.has_colors = !scene.colors.empty();
+    constants_.has_tangents = !scene.tangents.empty();
+    constants_.has_textures = !scene.textures.empty();
+    constants_.has_directions = map.has_directions();
+    constants_.has_alpha = any_material(scene, material_alpha_mask | material_alpha_blend);
+    constants_.has_transmission = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                              [](const Material& m) { return m.transmission > 0; });
+    const bool can_follow = !bvh.nodes.empty();
+    min_lobe_ = can_follow ? min_roughness(scene) : 1.0f;
+    constants_.looks_through = can_follow && (constants_.has_transmission || any_material(scene, material_alpha_blend));
+    constants_.has_caustics = map.caustic_grids > 0;
+    constants_.first_caustic_map = uint(map.grids.size()) - map.caustic_grids;
+    constants_.first_cut = map.first_cut(0, constants_.first_caustic_map);
+    constants_.first_caustic_cut = map.first_cut(constants_.first_caustic_map, uint(map.grids.size()));
+    constants_.has_smooth_caustics = !map.smooth_caustics.empty();
+    constants_.has_shadow_masks = !map.shadow_masks.empty();
+    constants_.has_mesh_lamps = !scene.emitters.empty();
+    constants_.has_profiles = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                          [](const Light& light) { return light.type == light_profile; });
+    constants_.has_metallic_roughness_textures = any_texture(scene, &Material::metallic_roughness_texture);
+    constants_.has_emissive_textures = any_texture(scene, &Material::emissive_texture);
+    constants_.has_transmission_textures = any_texture(scene, &Material::transmission_texture);
+    constants_.chunk_shift = std::min(27u, uint(std::bit_width(max_texels_)) - 1u);
+    constants_.chunks = chunk_count(map.places.size(), constants_.chunk_shift);
+    constants_.heap_size = 1;
 }
 
 /// Each record in so many texels of four words.
@@ -221,40 +253,44 @@ void Resident::set_lamp_factors(std::span<const float> factors, uint setting) {
     set_lamp_factors(std::vector<vec3>(factors.begin(), factors.end()), setting);
 }
 
-void Resident::set_lamp_factors(std::span<const vec3> factors, uint setting) {
+void Resident::set_light_factors(std::span<const vec3> factors, uint setting) {
+    submit_and_wait(*device_,
+                    [&](vk::CommandBuffer commands) { record_light_factors(commands, factors, setting, true); });
+}
+
+void Resident::record_light_factors(vk::CommandBuffer commands, std::span<const vec3> factors, uint setting,
+                                    bool whole) {
     assert(factors.size() == scene_->lights.size());
     Lamps& lamps = lamps_[setting];
-    const bool first = lamps.powers.size() == 0;
-    if (!first && std::equal(factors.begin(), factors.end(), lamps.factors.begin())) return;
-    if (first) make_lamps(setting);
+    if (lamps.powers.size() == 0) make_lamps(setting);
+    std::vector<vec3> powers;
+    for (size_t i = 0; i < factors.size(); ++i) powers.push_back(scene_->lights[i].intensity * factors[i]);
+    if (lamps.sum) lamp_sum_->record(commands, *lamps.sum, powers, whole);
+    if (std::equal(factors.begin(), factors.end(), lamps.factors.begin(), lamps.factors.end())) return;
     lamps.factors.assign(factors.begin(), factors.end());
     std::vector<LampPower> records;
-    std::vector<vec3> powers;
-    for (size_t i = 0; i < factors.size(); ++i) {
-        powers.push_back(scene_->lights[i].intensity * factors[i]);
-        records.push_back({vec4(powers[i], 0), vec4(factors[i], 0)});
-    }
-    write_cells(lamps, powers);
-    write_bytes(*device_, lamps.powers, records.data(), records.size() * sizeof(LampPower));
+    for (size_t i = 0; i < factors.size(); ++i) records.push_back({vec4(powers[i], 0), vec4(factors[i], 0)});
+    record_update(commands, lamps.powers, std::span<const LampPower>(records));
 }
 
 void Resident::make_lamps(uint setting) {
     Lamps& lamps = lamps_[setting];
-    const size_t lights = std::max<size_t>(1, scene_->lights.size()), cells = cells_ ? map_->coverage.size() : 0;
+    const size_t lights = std::max<size_t>(1, scene_->lights.size());
     lamps.powers = Buffer(*device_, lights * sizeof(LampPower), "powers of lamps");
-    lamps.cells = cells > 0 ? Buffer(*device_, cells * sizeof(uvec4), "light of cells")
-                            : upload(*device_, std::span<const uvec4>(), "light of cells");
+    if (lamp_sum_)
+        lamps.sum = lamp_sum_->make_setting();
+    else
+        lamps.no_cells = upload(*device_, std::span<const uvec4>(), "light of cells");
     views_.push_back(view_as_texels(*device_, lamps.powers, vk::Format::eR32G32B32A32Sfloat));
     descriptors_[setting].set_texels(binding_lamp_powers, *views_.back());
-    views_.push_back(view_as_texels(*device_, lamps.cells, vk::Format::eR32G32B32A32Uint));
+    const Buffer& cells = lamps.sum ? lamps.sum->cells : lamps.no_cells;
+    views_.push_back(view_as_texels(*device_, cells, vk::Format::eR32G32B32A32Uint));
     descriptors_[setting].set_texels(binding_cell_light, *views_.back());
 }
 
-void Resident::write_cells(Lamps& lamps, std::span<const vec3> powers) const {
-    if (!cells_) return;
-    std::vector<uvec4> light;
-    lamps.inverse_irradiance_scale = 1 / cells_->sum(powers, light);
-    write_bytes(*device_, lamps.cells, light.data(), light.size() * sizeof(uvec4));
+float Resident::inverse_irradiance_scale(uint setting) const {
+    const Lamps& lamps = lamps_[setting];
+    return lamps.sum ? 1 / lamp_sum_->record_scale(*lamps.sum) : 1.0f;
 }
 
 uint64_t Resident::ray_bytes() const { return acceleration_ ? acceleration_->bytes() + list_of_rays_ : list_of_rays_; }
@@ -263,7 +299,8 @@ uint64_t Resident::bytes() const {
     uint64_t sum = 0;
     for (const Buffer& buffer : buffers_) sum += buffer.size();
     if (acceleration_) sum += acceleration_->bytes();
-    for (const Lamps& lamps : lamps_) sum += lamps.powers.size() + lamps.cells.size();
+    if (lamp_sum_) sum += lamp_sum_->bytes();
+    for (const Lamps& lamps : lamps_) sum += lamps.powers.size() + (lamps.sum ? lamps.sum->bytes() : 0);
     return sum;
 }
 

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "gather/constants.h"
+#include "gather/lamp_sum.h"
 #include "gpu/acceleration.h"
 #include "gpu/pipeline.h"
-#include "maps/cells.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "shaders/frame.h"
@@ -33,9 +33,12 @@ class Resident {
 
     /// Dims the lights: one factor per light of the scene, >= 0, or one per channel. Setting 0 or 1: two of them lie on
     /// the device, so that one frame can show both; the second takes memory from its first use on. The same factors
-    /// again cost nothing.
-    void set_lamp_factors(std::span<const float> factors, uint setting = 0);
-    void set_lamp_factors(std::span<const vec3> factors, uint setting = 0);
+    /// again cost nothing. Waits until done.
+    void set_light_factors(std::span<const float> factors, uint setting = 0);
+    void set_light_factors(std::span<const vec3> factors, uint setting = 0);
+    /// The same as commands of a frame, for those recorded after it. Lamps that changed are added to the light at the
+    /// lattice; with `whole` all are summed anew, which forgets the rounding of many changes.
+    void record_light_factors(vk::CommandBuffer commands, std::span<const vec3> factors, uint setting, bool whole);
 
     const Scene& scene() const { return *scene_; }
     const DescriptorSet& descriptors(uint setting = 0) const { return descriptors_[setting]; }
@@ -51,7 +54,7 @@ class Resident {
     float max_radius() const { return max_radius_; }    // m
     float ray_epsilon() const { return ray_epsilon_; }  // m
     float scene_size() const { return scene_size_; }    // m
-    float inverse_irradiance_scale(uint setting = 0) const { return lamps_[setting].inverse_irradiance_scale; }
+    float inverse_irradiance_scale(uint setting = 0) const;
     float inverse_flux_scale() const { return inverse_flux_scale_; }
     uint64_t bytes() const;      // GPU memory of all buffers
     uint64_t ray_bytes() const;  // of these, what rays are found with
@@ -63,14 +66,13 @@ class Resident {
     void upload_direct(const Scene& scene, const Bvh& bvh);
     /// Builds what ray queries meet; its triangles, opaque ones first.
     std::vector<uint> queried(const Bvh& bvh);
-    /// The lamps at one setting: their powers, and the light of the cells at these.
+    /// The lamps at one setting: their powers, and the light of the lattice at these.
     struct Lamps {
         std::vector<vec3> factors;
-        Buffer powers, cells;
-        float inverse_irradiance_scale = 1;
+        Buffer powers, no_cells;
+        std::optional<LampSumSetting> sum;  // where the map has a lattice
     };
     void make_lamps(uint setting);
-    void write_cells(Lamps& lamps, std::span<const vec3> powers) const;
     template <class T>
     void upload_records(uint binding, std::span<const T> values, const std::string& what);
     template <class T>
@@ -96,6 +98,7 @@ class Resident {
     std::vector<vk::UniqueBufferView> views_;
     std::optional<Acceleration> acceleration_;
     std::optional<CellLight> cells_;
+    std::optional<LampSum> lamp_sum_;
     std::array<Lamps, 2> lamps_;
 };
 

@@ -71,6 +71,16 @@ void write_bytes(const Device& device, const Buffer& buffer, const void* bytes, 
     }
 }
 
+void record_bytes(vk::CommandBuffer commands, const Buffer& buffer, const void* bytes, size_t count) {
+    constexpr size_t max_update = 65536;  // of vkCmdUpdateBuffer
+    using Stage = vk::PipelineStageFlagBits2;
+    stage_barrier(commands, Stage::eAllCommands, Stage::eTransfer);
+    for (size_t done = 0; done < count; done += max_update)
+        commands.updateBuffer(buffer.handle(), done, std::min(count - done, max_update),
+                              static_cast<const char*>(bytes) + done);
+    stage_barrier(commands, Stage::eTransfer, Stage::eAllCommands);
+}
+
 void read_bytes(const Device& device, const Buffer& buffer, void* bytes, size_t count) {
     assert(count <= buffer.size());
     if (count == 0) return;

@@ -33,6 +33,13 @@ class Buffer {
 
 /// Copies `count` bytes to the start of a device buffer and waits until that is done.
 void write_bytes(const Device& device, const Buffer& buffer, const void* bytes, size_t count);
+/// Records a copy of bytes into a device buffer from its start, after all commands before and for all after. For a few
+/// kilobytes: they travel inside the commands.
+void record_bytes(vk::CommandBuffer commands, const Buffer& buffer, const void* bytes, size_t count);
+template <class T>
+void record_update(vk::CommandBuffer commands, const Buffer& buffer, std::span<const T> values) {
+    record_bytes(commands, buffer, values.data(), values.size_bytes());
+}
 /// Copies `count` bytes from the start of a device buffer and waits until that is done.
 void read_bytes(const Device& device, const Buffer& buffer, void* bytes, size_t count);
 

@@ -40,6 +40,12 @@ void DescriptorSet::set_texels(uint32_t binding, vk::BufferView texels, uint32_t
     device_->handle().updateDescriptorSets(write, {});
 }
 
+void DescriptorSet::set_window(uint32_t binding, const Buffer& buffer, vk::DeviceSize bytes) const {
+    const vk::DescriptorBufferInfo what(buffer.handle(), 0, bytes);
+    const vk::WriteDescriptorSet write(set_, binding, 0, vk::DescriptorType::eStorageBufferDynamic, {}, what);
+    device_->handle().updateDescriptorSets(write, {});
+}
+
 void DescriptorSet::set_acceleration(uint32_t binding, vk::AccelerationStructureKHR acceleration) const {
     const vk::WriteDescriptorSetAccelerationStructureKHR what(acceleration);
     vk::WriteDescriptorSet write(set_, binding, 0, 1, vk::DescriptorType::eAccelerationStructureKHR);

@@ -24,6 +24,8 @@ class DescriptorSet {
     vk::DescriptorSet handle() const { return set_; }
     void set_buffer(uint32_t binding, const Buffer& buffer, uint32_t element = 0) const;
     void set_texels(uint32_t binding, vk::BufferView texels, uint32_t element = 0) const;
+    /// `bytes` of a buffer, from an offset that is given when the set is bound.
+    void set_window(uint32_t binding, const Buffer& buffer, vk::DeviceSize bytes) const;
     void set_acceleration(uint32_t binding, vk::AccelerationStructureKHR acceleration) const;
     /// A texture in layout eShaderReadOnlyOptimal, fetched without a sampler.
     void set_target(uint32_t binding, const Target& texture) const;

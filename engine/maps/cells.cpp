@@ -51,16 +51,17 @@ CellLight::CellLight(const Scene& scene, const PhotonMap& map)
     if (!map.has_visible_lamps()) return;
     words_.assign(map.coverage.size() * stride_, 0);
     for (uint lamp = 0; lamp < lamp_count_; ++lamp)
-        if (is_linear_in_cells(scene.lights[lamp].type)) punctual_.push_back(lamp);
-    direct_.assign(punctual_.size(), std::vector<float>(map.coverage.size(), 0));
-    const PlaneGrids planes(scene, map);
+        if (scene.lights[lamp].type != light_mesh && scene.lights[lamp].type != light_profile)
+            punctual_.push_back(lamp);
+    const PlaneMaps planes(scene, map);
     parallel_for(map.grids.size(), [&](size_t m) { describe_cells(map.grids[m]); });
     for (const ShadowMask& mask : map.shadow_masks) describe(mask);
+    std::vector<uint> direct(punctual_.size() * map.coverage.size(), 0);
     parallel_for(map.grids.size(), [&](size_t m) {
-        if (planes.is_matte_plane(m)) add_direct_of_punctuals(map.grids[m], planes.height(m));
+        if (planes.is_matte_plane(m)) add_direct_of_punctuals(map.grids[m], planes.height(m), direct);
     });
-    for (const std::vector<float>& lamp : direct_)
-        for (float e : lamp) max_direct_ = std::max(max_direct_, e);
+    direct_ = SparseArray(direct);
+    for (uint e : direct_.values) max_direct_ = std::max(max_direct_, uintBitsToFloat(e));
 }
 
 uint& CellLight::lamp_word(size_t cell, uint lamp) { return words_[cell * stride_ + marks_ + cell_lamp_word(lamp)]; }
@@ -115,7 +116,7 @@ bool CellLight::is_even(const SurfaceGrid& grid, uint node, uint lamp, float hei
     return true;
 }
 
-void CellLight::add_direct_of_punctuals(const SurfaceGrid& grid, float height) {
+void CellLight::add_direct_of_punctuals(const SurfaceGrid& grid, float height, std::vector<uint>& direct) {
     const SurfaceLattice& lattice = grid.lattice;
     for (size_t i = 0; i < punctual_.size(); ++i) {
         const Light& light = scene_.lights[punctual_[i]];
@@ -126,7 +127,8 @@ void CellLight::add_direct_of_punctuals(const SurfaceGrid& grid, float height) {
             if (!all_visible || !is_even(grid, node, punctual_[i], height)) return;
             bits |= in_cell_light << shift;
             for (uint corner : corners_of(lattice, node))
-                direct_[i][corner] = unshadowed(light, node_position(grid, corner, height), grid.normal);
+                direct[i * map_.coverage.size() + corner] =
+                    floatBitsToUint(unshadowed(light, node_position(grid, corner, height), grid.normal));
         });
     }
 }
@@ -135,13 +137,17 @@ bool CellLight::holds(size_t cell, uint lamp) const {
     return (words_[cell * stride_ + marks_ + cell_lamp_word(lamp)] >> cell_lamp_shift(lamp)) & in_cell_light;
 }
 
-float CellLight::sum(std::span<const vec3> powers, std::vector<uvec4>& light) const {
-    assert(powers.size() == lamp_count_);
-    const size_t nodes = map_.coverage.size();
+float CellLight::scale_of(std::span<const vec3> weights) const {
     float total = 0;
     for (const vec3& w : powers) total += std::max({w.x, w.y, w.z});
     const float room = std::min(1.0f, max_direct / (max_direct_ * map_.irradiance_scale));
-    const float scale = (total > 0 ? 1 / total : 1.0f) * room, record_scale = scale * map_.irradiance_scale;
+    return (total > 0 ? 1 / total : 1.0f) * room;
+}
+
+float CellLight::sum(std::span<const vec3> weights, std::vector<uvec4>& light) const {
+    assert(weights.size() == lamp_count_);
+    const size_t nodes = map_.coverage.size();
+    const float scale = scale_of(weights), record_scale = scale * map_.irradiance_scale;
     std::vector<vec3> at_nodes(nodes);
     parallel_for(
         nodes,
@@ -162,7 +168,8 @@ float CellLight::sum(std::span<const vec3> powers, std::vector<uvec4>& light) co
             for (size_t i = 0; i < punctual_.size(); ++i)
                 if (holds(node, punctual_[i]))
                     for (size_t c = 0; c < 4; ++c)
-                        e[c] += powers[punctual_[i]] * (record_scale * direct_[i][corners[c]]);
+                        e[c] +=
+                            weights[punctual_[i]] * (record_scale * uintBitsToFloat(direct_[i * nodes + corners[c]]));
             for (int c = 0; c < 4; ++c) light[node][c] = pack_rgb9e5(e[size_t(c)]);
         });
     });

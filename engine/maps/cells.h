@@ -18,8 +18,17 @@ class CellLight {
     const std::vector<uint>& words() const { return words_; }
     /// The masks that cells refer to: lit points (low, high), tint (RGB9E5), nothing.
     const std::vector<uvec4>& masks() const { return masks_; }
-    /// The corners' irradiance, four RGB9E5 per cell of lux x the returned scale; powers: RGB power of each lamp.
-    float sum(std::span<const vec3> powers, std::vector<uvec4>& light) const;
+    /// The corners' irradiance, four RGB9E5 per cell of lux x the returned scale; weights: RGB power of each lamp.
+    float sum(std::span<const vec3> weights, std::vector<uvec4>& light) const;
+    /// What irradiance at the nodes is multiplied by in sum(), so that the brightest corner fits into RGB9E5; that of
+    /// PhotonMap::irradiance not included.
+    float scale_of(std::span<const vec3> weights) const;
+
+    /// Lamps whose own light cells may hold.
+    const std::vector<uint>& punctual() const { return punctual_; }
+    /// Bits of floats: lux at node n from lamp punctual()[i] at intensity 1, if nothing stands between, is word
+    /// i x nodes + n; 0 at nodes of no cell that holds the lamp.
+    const SparseArray& direct() const { return direct_; }
 
   private:
     bool holds(size_t cell, uint lamp) const;
@@ -27,7 +36,7 @@ class CellLight {
     void describe_cells(const SurfaceGrid& grid);
     void describe(const ShadowMask& mask);
     uint describe(const SurfaceLattice& lattice, uint node, uint lamp) const;
-    void add_direct_of_punctuals(const SurfaceGrid& grid, float height);
+    void add_direct_of_punctuals(const SurfaceGrid& grid, float height, std::vector<uint>& direct);
     bool is_even(const SurfaceGrid& grid, uint node, uint lamp, float height) const;
 
     const Scene& scene_;
@@ -35,8 +44,8 @@ class CellLight {
     uint lamp_count_, marks_, stride_;
     std::vector<uint> words_;
     std::vector<uvec4> masks_;
-    std::vector<uint> punctual_;              // lamps whose light cells may hold
-    std::vector<std::vector<float>> direct_;  // of each of them: lux at the nodes for intensity 1, unshadowed
+    std::vector<uint> punctual_;
+    SparseArray direct_;
     float max_direct_ = 1e-20f;
 };
 

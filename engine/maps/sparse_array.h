@@ -36,6 +36,12 @@ struct SparseArray {
         return values[starts_[i / 32] + uint64_t(std::popcount(mark & ((1u << (i % 32)) - 1u)))];
     }
     bool empty() const { return marks.empty(); }
+    /// For each 32 words their mark and where their values start, as a shader reads them (shaders/lamp_sum.comp).
+    std::vector<uvec2> marks_and_starts() const {
+        std::vector<uvec2> pairs(marks.size());
+        for (size_t i = 0; i < marks.size(); ++i) pairs[i] = uvec2(marks[i], uint(starts_[i]));
+        return pairs;
+    }
     uint64_t bytes() const {
         return (marks.size() + values.size()) * sizeof(uint) + starts_.size() * sizeof(starts_[0]);
     }
