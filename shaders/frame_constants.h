@@ -33,7 +33,7 @@ LW_CONSTANT(bool, has_direct, true)    // lamps' own light comes by rays and the
 LW_CONSTANT(bool, has_shadow_rays, true)
 LW_CONSTANT(bool, has_followed, true)         // view paths go on from some surfaces
 LW_CONSTANT(float, followed_roughness, 0.0f)  // lobes of smoother surfaces are followed
-LW_CONSTANT(bool, follows_through, true)        // glass and blends are surfaces of the view, what is behind is followed
+LW_CONSTANT(bool, follows_through, true)      // glass and blends are surfaces of the view, what is behind is followed
 LW_CONSTANT(uint, first_see_through,
             no_grid)  // with ray queries: first triangle that may let light through, or no_triangle
 // Which triangles are drawn (gather/cull_pass).

@@ -7,12 +7,14 @@
 namespace lw {
 #endif
 
+LW_CONST uint no_place = 0xffffffffu;  // of a lamp whose own light no cell holds, of a word that is zero
+
 /// What a lamp adds to the sums; of a lamp that changed, what its change adds.
 struct LampTerm {
     vec3 scaled_power;  // power x scale of the sums: the factor of PhotonMap::irradiance
     uint lamp;
     vec3 power;     // RGB, in the unit of the lamp's intensity: the factor of its own light
-    uint punctual;  // its place among the lamps whose own light cells may hold, or no_map
+    uint punctual;  // its place among the lamps whose own light cells may hold, or no_place
 };
 
 /// Push constants of both passes. Nodes, and the cells above and right of them, are numbered alike.

@@ -20,7 +20,7 @@ layout(set = 0, binding = binding_cell_sums, scalar) writeonly buffer CellSums {
 float direct_at(uint punctual, uint node) {
     uint word = punctual * push.nodes + node;
     uint place = sparse_place(texelFetch(direct_marks, int(word / 32u)).xy, word);
-    return place == no_map ? 0.0f : uintBitsToFloat(texelFetch(direct_values, int(place)).x);
+    return place == no_place ? 0.0f : uintBitsToFloat(texelFetch(direct_values, int(place)).x);
 }
 
 bool holds(uint cell, uint lamp) {
@@ -44,7 +44,7 @@ void main() {
         e[c] = texelFetch(node_sums, int(corners[c])).xyz + direct[c];
     }
     for (uint t = 0u; t < push.terms; ++t) {
-        if (terms[t].punctual == no_map || !holds(cell, terms[t].lamp)) continue;
+        if (terms[t].punctual == no_place || !holds(cell, terms[t].lamp)) continue;
         for (int c = 0; c < 4; ++c) {
             precise vec3 part = terms[t].power * (push.record_scale * direct_at(terms[t].punctual, corners[c]));
             e[c] += part;

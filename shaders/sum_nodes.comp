@@ -17,7 +17,7 @@ void main() {
     for (uint t = 0u; t < push.terms; ++t) {
         uint word = terms[t].lamp * push.nodes + node;
         uint place = sparse_place(texelFetch(irradiance_marks, int(word / 32u)).xy, word);
-        if (place == no_map) continue;
+        if (place == no_place) continue;
         precise vec3 part = unpack_rgb9e5(texelFetch(irradiance_values, int(place)).x) * terms[t].scaled_power;
         e += part;
     }

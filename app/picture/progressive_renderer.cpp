@@ -126,7 +126,7 @@ void ProgressiveRenderer::record_lights(vk::CommandBuffer commands, const FrameR
     using Side = LiveView::Side;
     constexpr uint factors_a = 0, factors_b = 1;
     const bool stands_still = samples_ > 0;  // then all lamps are summed anew, once
-    resident_.record_light_factors(commands, request.factors_a, factors_a, stands_still);
+    resident_.record_lamp_factors(commands, request.factors_a, factors_a, stands_still);
     const Frame frame = frame_of_sample(request.camera, picture_size_, samples_);
     live_->record_light(commands, frame, request.gather, Side::a, factors_a, rows);
     if (is_inspection(display.kind.view)) {
@@ -135,7 +135,7 @@ void ProgressiveRenderer::record_lights(vk::CommandBuffer commands, const FrameR
         inspect.mode = gather_mode_inspect;
         live_->record_light(commands, frame, inspect, Side::b, factors_a);
     } else if (!request.factors_b.empty()) {
-        resident_.record_light_factors(commands, request.factors_b, factors_b, stands_still);
+        resident_.record_lamp_factors(commands, request.factors_b, factors_b, stands_still);
         live_->record_light(commands, frame, request.gather, Side::b, factors_b, rows);
     }
 }

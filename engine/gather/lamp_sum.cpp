@@ -54,7 +54,7 @@ LampSum::LampSum(const Device& device, const Scene& scene, const PhotonMap& map,
       map_(&map),
       cells_(&cells),
       nodes_(uint(map.coverage.size())),
-      punctual_(scene.lights.size(), no_map),
+      punctual_(scene.lights.size(), no_place),
       shape_(device, bindings_of(BindingSet::lamp_sum)) {
     for (size_t i = 0; i < cells.punctual().size(); ++i) punctual_[cells.punctual()[i]] = uint(i);
     constexpr auto word = vk::Format::eR32Uint, two = vk::Format::eR32G32Uint;

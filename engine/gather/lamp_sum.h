@@ -55,7 +55,7 @@ class LampSum {
     const PhotonMap* map_;
     const CellLight* cells_;
     uint nodes_;
-    std::vector<uint> punctual_;  // of each lamp: its place among CellLight::punctual(), or no_map
+    std::vector<uint> punctual_;  // of each lamp: its place among CellLight::punctual(), or no_place
     std::vector<std::pair<uint, vk::UniqueBufferView>> shared_;  // binding and texels
     std::vector<Buffer> buffers_;
     DescriptorSet shape_;  // never bound: the layout of the settings' sets

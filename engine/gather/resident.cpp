@@ -63,37 +63,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     upload_map(map);
     upload_direct(scene, bvh);
     if (cells_) lamp_sum_.emplace(device, scene, map, *cells_);
-    set_light_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
-}
-
-void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const Bvh& bvh) {
-    constants_.has_uv0 = !scene.uv0.empty();
-    constants_.has_uv1 = !scene.uv1.empty();
-    constants_.has_colors = !scene.colors.empty();
-    constants_.has_tangents = !scene.tangents.empty();
-    constants_.has_textures = !scene.textures.empty();
-    constants_.has_directions = map.has_directions();
-    constants_.has_alpha = any_material(scene, material_alpha_mask | material_alpha_blend);
-    constants_.has_transmission = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                              [](const Material& m) { return m.transmission > 0; });
-    const bool can_follow = !bvh.nodes.empty();
-    min_lobe_ = can_follow ? min_roughness(scene) : 1.0f;
-    constants_.looks_through = can_follow && (constants_.has_transmission || any_material(scene, material_alpha_blend));
-    constants_.has_caustics = map.caustic_grids > 0;
-    constants_.first_caustic_map = uint(map.grids.size()) - map.caustic_grids;
-    constants_.first_cut = map.first_cut(0, constants_.first_caustic_map);
-    constants_.first_caustic_cut = map.first_cut(constants_.first_caustic_map, uint(map.grids.size()));
-    constants_.has_smooth_caustics = !map.smooth_caustics.empty();
-    constants_.has_shadow_masks = !map.shadow_masks.empty();
-    constants_.has_mesh_lamps = !scene.emitters.empty();
-    constants_.has_profiles = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                          [](const Light& light) { return light.type == light_profile; });
-    constants_.has_metallic_roughness_textures = any_texture(scene, &Material::metallic_roughness_texture);
-    constants_.has_emissive_textures = any_texture(scene, &Material::emissive_texture);
-    constants_.has_transmission_textures = any_texture(scene, &Material::transmission_texture);
-    constants_.chunk_shift = std::min(27u, uint(std::bit_width(max_texels_)) - 1u);
-    constants_.chunks = chunk_count(map.places.size(), constants_.chunk_shift);
-    constants_.heap_size = 1;
+    set_lamp_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
 }
 
 /// Each record in so many texels of four words.
@@ -253,13 +223,13 @@ void Resident::set_lamp_factors(std::span<const float> factors, uint setting) {
     set_lamp_factors(std::vector<vec3>(factors.begin(), factors.end()), setting);
 }
 
-void Resident::set_light_factors(std::span<const vec3> factors, uint setting) {
+void Resident::set_lamp_factors(std::span<const vec3> factors, uint setting) {
     submit_and_wait(*device_,
-                    [&](vk::CommandBuffer commands) { record_light_factors(commands, factors, setting, true); });
+                    [&](vk::CommandBuffer commands) { record_lamp_factors(commands, factors, setting, true); });
 }
 
-void Resident::record_light_factors(vk::CommandBuffer commands, std::span<const vec3> factors, uint setting,
-                                    bool whole) {
+void Resident::record_lamp_factors(vk::CommandBuffer commands, std::span<const vec3> factors, uint setting,
+                                   bool whole) {
     assert(factors.size() == scene_->lights.size());
     Lamps& lamps = lamps_[setting];
     if (lamps.powers.size() == 0) make_lamps(setting);

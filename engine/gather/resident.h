@@ -34,11 +34,11 @@ class Resident {
     /// Dims the lights: one factor per light of the scene, >= 0, or one per channel. Setting 0 or 1: two of them lie on
     /// the device, so that one frame can show both; the second takes memory from its first use on. The same factors
     /// again cost nothing. Waits until done.
-    void set_light_factors(std::span<const float> factors, uint setting = 0);
-    void set_light_factors(std::span<const vec3> factors, uint setting = 0);
+    void set_lamp_factors(std::span<const float> factors, uint setting = 0);
+    void set_lamp_factors(std::span<const vec3> factors, uint setting = 0);
     /// The same as commands of a frame, for those recorded after it. Lamps that changed are added to the light at the
     /// lattice; with `whole` all are summed anew, which forgets the rounding of many changes.
-    void record_light_factors(vk::CommandBuffer commands, std::span<const vec3> factors, uint setting, bool whole);
+    void record_lamp_factors(vk::CommandBuffer commands, std::span<const vec3> factors, uint setting, bool whole);
 
     const Scene& scene() const { return *scene_; }
     const DescriptorSet& descriptors(uint setting = 0) const { return descriptors_[setting]; }

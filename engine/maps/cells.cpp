@@ -51,9 +51,8 @@ CellLight::CellLight(const Scene& scene, const PhotonMap& map)
     if (!map.has_visible_lamps()) return;
     words_.assign(map.coverage.size() * stride_, 0);
     for (uint lamp = 0; lamp < lamp_count_; ++lamp)
-        if (scene.lights[lamp].type != light_mesh && scene.lights[lamp].type != light_profile)
-            punctual_.push_back(lamp);
-    const PlaneMaps planes(scene, map);
+        if (is_linear_in_cells(scene.lights[lamp].type)) punctual_.push_back(lamp);
+    const PlaneGrids planes(scene, map);
     parallel_for(map.grids.size(), [&](size_t m) { describe_cells(map.grids[m]); });
     for (const ShadowMask& mask : map.shadow_masks) describe(mask);
     std::vector<uint> direct(punctual_.size() * map.coverage.size(), 0);
@@ -137,17 +136,17 @@ bool CellLight::holds(size_t cell, uint lamp) const {
     return (words_[cell * stride_ + marks_ + cell_lamp_word(lamp)] >> cell_lamp_shift(lamp)) & in_cell_light;
 }
 
-float CellLight::scale_of(std::span<const vec3> weights) const {
+float CellLight::scale_of(std::span<const vec3> powers) const {
     float total = 0;
     for (const vec3& w : powers) total += std::max({w.x, w.y, w.z});
     const float room = std::min(1.0f, max_direct / (max_direct_ * map_.irradiance_scale));
     return (total > 0 ? 1 / total : 1.0f) * room;
 }
 
-float CellLight::sum(std::span<const vec3> weights, std::vector<uvec4>& light) const {
-    assert(weights.size() == lamp_count_);
+float CellLight::sum(std::span<const vec3> powers, std::vector<uvec4>& light) const {
+    assert(powers.size() == lamp_count_);
     const size_t nodes = map_.coverage.size();
-    const float scale = scale_of(weights), record_scale = scale * map_.irradiance_scale;
+    const float scale = scale_of(powers), record_scale = scale * map_.irradiance_scale;
     std::vector<vec3> at_nodes(nodes);
     parallel_for(
         nodes,
@@ -169,7 +168,7 @@ float CellLight::sum(std::span<const vec3> weights, std::vector<uvec4>& light) c
                 if (holds(node, punctual_[i]))
                     for (size_t c = 0; c < 4; ++c)
                         e[c] +=
-                            weights[punctual_[i]] * (record_scale * uintBitsToFloat(direct_[i * nodes + corners[c]]));
+                            powers[punctual_[i]] * (record_scale * uintBitsToFloat(direct_[i * nodes + corners[c]]));
             for (int c = 0; c < 4; ++c) light[node][c] = pack_rgb9e5(e[size_t(c)]);
         });
     });

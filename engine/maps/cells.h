@@ -18,11 +18,11 @@ class CellLight {
     const std::vector<uint>& words() const { return words_; }
     /// The masks that cells refer to: lit points (low, high), tint (RGB9E5), nothing.
     const std::vector<uvec4>& masks() const { return masks_; }
-    /// The corners' irradiance, four RGB9E5 per cell of lux x the returned scale; weights: RGB power of each lamp.
-    float sum(std::span<const vec3> weights, std::vector<uvec4>& light) const;
+    /// The corners' irradiance, four RGB9E5 per cell of lux x the returned scale; powers: RGB power of each lamp.
+    float sum(std::span<const vec3> powers, std::vector<uvec4>& light) const;
     /// What irradiance at the nodes is multiplied by in sum(), so that the brightest corner fits into RGB9E5; that of
     /// PhotonMap::irradiance not included.
-    float scale_of(std::span<const vec3> weights) const;
+    float scale_of(std::span<const vec3> powers) const;
 
     /// Lamps whose own light cells may hold.
     const std::vector<uint>& punctual() const { return punctual_; }

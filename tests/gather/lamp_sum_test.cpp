@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "gpu/commands.h"
-#include "maps/build.h"
-#include "photons/shoot.h"
+#include "maps/bake.h"
 #include "rooms.h"
 
 namespace lw {
@@ -17,7 +16,7 @@ struct Summed {
     Summed()
         : scene(make_room({2000, 8})),
           caster(scene),
-          map(build_photon_map(scene, caster, shoot_photons(scene, caster, {40'000, 1}), {40'000, 0, 60, 1})),
+          map(bake(scene, caster, {.photons = 40'000})),
           cells(scene, map),
           device({"llvmpipe", true, {}}),
           sum(device, scene, map, cells),

@@ -6,6 +6,7 @@
 #include "benchmark/lab_scene.h"
 #include "maps/bake.h"
 #include "maps/plane_grids.h"
+#include "scene/triangle.h"
 #include "trace/ray_caster.h"
 
 namespace lw::test {

@@ -1,6 +1,7 @@
 // Coverage at lattice nodes of an open floor: how much of a kernel lies on it follows from its edges. Once of two
 // triangles, where it has a closed form, and once of so many that it is sampled.
 #include "maps/coverage.h"
+#include "maps/buried.h"
 
 #include <gtest/gtest.h>
 
