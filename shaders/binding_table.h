@@ -7,7 +7,7 @@
 
 // The scene and its map, set 0 (gather/resident). Corners are three per triangle, without indices.
 LW_BINDING(scene, corners, texels, 1, all_stages)       // RGBA32F twice: position and u, normal and v of uv0
-LW_BINDING(scene, triangles, texels, 1, all_stages)     // RGBA32: map of the front, of the back, material, light or -1
+LW_BINDING(scene, triangles, texels, 1, all_stages)     // RGBA32: map or cut of the front, of the back, material, light or -1
 LW_BINDING(scene, uv1, texels, 1, all_stages)           // RG32F per corner
 LW_BINDING(scene, colors, texels, 1, all_stages)        // RGBA32F per corner
 LW_BINDING(scene, tangents, texels, 1, all_stages)      // RGBA32F per corner
@@ -15,6 +15,7 @@ LW_BINDING(scene, texels, texels, 1, all_stages)        // RGBA8, of all texture
 LW_BINDING(scene, materials, texels, 1, all_stages)     // RGBA32, material_texels for each Material
 LW_BINDING(scene, textures, texels, 1, all_stages)      // RGBA32, texture_texels for each Texture
 LW_BINDING(scene, grids, texels, 1, compute)            // RGBA32, SurfaceGrid
+LW_BINDING(scene, cuts, texels, 1, compute)             // RGBA32, Cut
 LW_BINDING(scene, cell_starts, texels, 1, compute)      // R32, first photon of each cell
 LW_BINDING(scene, places, texels, max_chunks, compute)  // RG32, PhotonPlace
 LW_BINDING(scene, fluxes, texels, max_chunks, compute)  // R32, RGB9E5 of each photon

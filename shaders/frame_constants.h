@@ -22,9 +22,6 @@ LW_CONSTANT(bool, has_visible_lamps, true)
 LW_CONSTANT(bool, has_shadow_masks, true)
 LW_CONSTANT(bool, has_caustics, true)
 LW_CONSTANT(bool, has_smooth_caustics, true)  // at the nodes of the lattice
-LW_CONSTANT(uint, first_cut, no_map)          // first of the cuts among the grids; no_map: none
-LW_CONSTANT(uint, first_caustic_map, no_map)  // grids from here on are of caustics
-LW_CONSTANT(uint, first_caustic_cut, no_map)  // first of their cuts
 LW_CONSTANT(uint, chunks, 1u)                 // buffers that the photon records are split over
 LW_CONSTANT(uint, chunk_shift, 27u)           // a buffer holds 2^chunk_shift records
 // How light is gathered (gather/gather_pass).

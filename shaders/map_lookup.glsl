@@ -1,6 +1,6 @@
 // Look-ups in the photon map: the patch and cell of a point, the bandwidth from the number of photons around it, and
-// the coverage of a kernel there. One text for C++ and GLSL. The including scope provides the functions grid_at, is_cut
-// (false for no_map), cell_start, node_coverage and the constants neighbours, has_coverage. Needs photon_map.h.
+// the coverage of a kernel there. One text for C++ and GLSL. The including scope provides the functions grid_at, cut_at,
+// cell_start, node_coverage and the constants neighbours, has_coverage. Needs photon_map.h.
 
 ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
     return ivec2(int(floor(local.x / grid.cell_size)), int(floor(local.y / grid.cell_size)));
@@ -105,7 +105,7 @@ struct MapPlace {
 
 /// The grid of a point on a surface whose record is `map`: follows cuts until a grid, or no_map, is reached.
 uint map_at(uint map, vec3 position) LW_MEMBER {
-    while (is_cut(map)) map = behind_cut(grid_at(map), position);
+    while (is_cut(map)) map = behind_cut(cut_at(map & ~cut_bit), position);
     return map;
 }
 

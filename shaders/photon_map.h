@@ -26,9 +26,6 @@ struct SurfaceLattice {
 
 /// The 2D uniform grid of one map: a triangle, or a patch of small triangles of like orientation, seen from one side.
 /// Cell (i, j) is cell_starts[first_cell + j * columns + i], its end the next entry.
-/// Where walls stand on a surface, its map is cut along them: a record without columns is a cut, a plane through the
-/// origin with this normal. What lies on the side of the normal belongs to record `rows`, the rest to `first_cell`: a
-/// map, a cut further on, or no_map.
 struct SurfaceGrid {
     vec3 origin;      // corner of the grid; position = origin + u u_axis + v v_axis + h normal
     float cell_size;  // m
@@ -44,12 +41,26 @@ struct SurfaceGrid {
     SurfaceLattice lattice;
 };
 
-/// The record that a cut leads to from a point.
-LW_INLINE uint behind_cut(SurfaceGrid cut, vec3 position) {
-    return dot(position - cut.origin, cut.normal) > 0.0f ? cut.rows : cut.first_cell;
+/// A plane across a surface, along which a wall stands. What lies on the side that the normal points to belongs to
+/// `front`, the rest to `back`: a map, another cut (cut_bit and its number), or no_map.
+struct Cut {
+    vec3 point;  // m
+    uint front;
+    vec3 normal;  // unit
+    uint back;
+};
+
+/// Where the number of a map may stand and this bit is set, the other bits are the number of a cut.
+LW_CONST uint cut_bit = 0x80000000u;
+LW_INLINE bool is_cut(uint map) { return map != no_map && (map & cut_bit) != 0u; }
+
+/// The map, or the next cut, of a point of a surface that is cut.
+LW_INLINE uint behind_cut(Cut cut, vec3 position) {
+    return dot(position - cut.point, cut.normal) > 0.0f ? cut.front : cut.back;
 }
 
 LW_CONST uint surface_grid_texels = 7u;  // of 16 bytes
+LW_CONST uint cut_texels = 2u;           // of 16 bytes
 LW_CONST uint max_cuts_deep = 48u;       // one after the other
 
 /// Coverage of the kernels of radius R/4, R/2, 3R/4 and R of a map with largest radius R, one byte each.
@@ -197,6 +208,7 @@ LW_INLINE vec3 unpack_direction(uint bits) {
 
 #ifdef __cplusplus
 static_assert(sizeof(SurfaceLattice) == 28 && sizeof(ShadowMask) == 20);
+static_assert(sizeof(Cut) == 16 * cut_texels && offsetof(Cut, back) == 28);
 static_assert(sizeof(SurfaceGrid) == 16 * surface_grid_texels && offsetof(SurfaceGrid, lattice) == 84 &&
               sizeof(PhotonPlace) == 8);
 }  // namespace lw

@@ -13,6 +13,7 @@ layout(set = 0, binding = binding_lamp_powers) uniform textureBuffer lamp_powers
 layout(set = 0, binding = binding_emitters, scalar) readonly buffer Emitters { Emitter emitters[]; };
 layout(set = 0, binding = binding_caustic_maps) uniform utextureBuffer caustic_maps;
 layout(set = 0, binding = binding_grids) uniform utextureBuffer grids;
+layout(set = 0, binding = binding_cuts) uniform utextureBuffer cuts;
 layout(set = 0, binding = binding_cell_starts) uniform utextureBuffer cell_starts;
 layout(set = 0, binding = binding_places) uniform utextureBuffer places[max_chunks];
 layout(set = 0, binding = binding_fluxes) uniform utextureBuffer fluxes[max_chunks];
@@ -86,11 +87,10 @@ SurfaceGrid grid_at(uint map) {
     return grid;
 }
 
-/// Maps come before their cuts.
-bool is_cut(uint map) {
-    if (map == no_map) return false;
-    bool of_caustics = first_caustic_cut != no_map && map >= first_caustic_cut;
-    return of_caustics || (first_cut != no_map && map >= first_cut && map < first_caustic_map);
+Cut cut_at(uint i) {
+    uvec4 first = texelFetch(cuts, int(cut_texels * i));
+    uvec4 second = texelFetch(cuts, int(cut_texels * i) + 1);
+    return Cut(uintBitsToFloat(first.xyz), first.w, uintBitsToFloat(second.xyz), second.w);
 }
 
 #ifndef LW_RAY_QUERIES

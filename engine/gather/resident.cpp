@@ -88,9 +88,6 @@ void Resident::choose_constants(const Scene& scene, const PhotonMap& map, const 
     min_lobe_ = can_follow ? min_roughness(scene) : 1.0f;
     constants_.looks_through = can_follow && (constants_.has_transmission || any_material(scene, material_alpha_blend));
     constants_.has_caustics = map.caustic_grids > 0;
-    constants_.first_caustic_map = uint(map.grids.size()) - map.caustic_grids;
-    constants_.first_cut = map.first_cut(0, constants_.first_caustic_map);
-    constants_.first_caustic_cut = map.first_cut(constants_.first_caustic_map, uint(map.grids.size()));
     constants_.has_smooth_caustics = !map.smooth_caustics.empty();
     constants_.has_shadow_masks = !map.shadow_masks.empty();
     constants_.has_mesh_lamps = !scene.emitters.empty();
@@ -167,6 +164,7 @@ void Resident::upload_corners(const Scene& scene) {
 void Resident::upload_map(const PhotonMap& map) {
     constexpr auto word = vk::Format::eR32Uint, two = vk::Format::eR32G32Uint, four = vk::Format::eR32G32B32A32Uint;
     upload_texels<SurfaceGrid>(binding_grids, four, map.grids, "grids");
+    upload_texels<Cut>(binding_cuts, four, map.cuts, "cuts");
     upload_texels<uint>(binding_cell_starts, word, map.cell_starts, "cells");
     upload_chunks<PhotonPlace>(binding_places, two, map.places, "photon places");
     upload_chunks<uint>(binding_fluxes, word, map.fluxes, "photon fluxes");

@@ -46,36 +46,36 @@ float flux_scale_of(const std::vector<Photon>& photons) {
 
 /// The maps of a set of photons.
 struct LitPatches {
-    std::vector<uint> kept;         // their patches, in order
-    std::vector<SurfaceGrid> cuts;  // that lead to any of them
-    std::vector<uint> of_side;      // the map or cut of each side of a triangle, or no_map
+    std::vector<uint> kept;     // their patches, in order
+    std::vector<Cut> cuts;      // that lead to any of them
+    std::vector<uint> of_side;  // the map or cut of each side of a triangle, or no_map
 };
 
-/// Drops patches without photons, numbers the others after the grids the map has, then the cuts that lead to any.
+/// Drops patches without photons and numbers the others after the grids the map has, and the cuts that lead to any
+/// after its cuts.
 LitPatches keep_lit_patches(const References& references, const Patches& patches, const PhotonMap& map) {
     LitPatches lit;
-    std::vector<uint>& kept = lit.kept;
-    std::vector<uint> renumbered(patches.count + patches.cuts.size(), no_map);
+    std::vector<uint> grid_of_patch(patches.count, no_map), renumbered_cuts(patches.cuts.size(), no_map);
     for (uint p = 0; p < patches.count; ++p) {
         if (references.starts[p] == references.starts[p + 1]) continue;
-        renumbered[p] = uint(map.grids.size() + kept.size());
-        kept.push_back(p);
+        grid_of_patch[p] = uint(map.grids.size() + lit.kept.size());
+        lit.kept.push_back(p);
     }
-    std::vector<char> is_lit(patches.count + patches.cuts.size(), 0);
-    for (uint p : kept) is_lit[p] = 1;
-    const auto first_cut = uint(map.grids.size() + kept.size());
-    for (size_t c = patches.cuts.size(); c-- > 0;)
-        is_lit[patches.count + c] = is_lit[patches.cuts[c].front] || is_lit[patches.cuts[c].back];
-    for (size_t c = 0, next = first_cut; c < patches.cuts.size(); ++c)
-        if (is_lit[patches.count + c]) renumbered[patches.count + c] = uint(next++);
+    const auto renumbered = [&](uint id) { return is_cut(id) ? renumbered_cuts[id & ~cut_bit] : grid_of_patch[id]; };
+    std::vector<char> is_lit(patches.cuts.size(), 0);
+    const auto leads_to_light = [&](uint id) {
+        return is_cut(id) ? is_lit[id & ~cut_bit] != 0 : grid_of_patch[id] != no_map;
+    };
+    for (size_t c = patches.cuts.size(); c-- > 0;)  // those it leads to first
+        is_lit[c] = leads_to_light(patches.cuts[c].front) || leads_to_light(patches.cuts[c].back);
+    for (size_t c = 0, next = map.cuts.size(); c < patches.cuts.size(); ++c)
+        if (is_lit[c]) renumbered_cuts[c] = uint(next++) | cut_bit;
     for (size_t c = 0; c < patches.cuts.size(); ++c)
-        if (is_lit[patches.count + c]) {
-            const PatchCut& cut = patches.cuts[c];
-            SurfaceGrid& grid = lit.cuts.emplace_back();
-            grid.origin = cut.point, grid.normal = cut.up;
-            grid.rows = renumbered[cut.front], grid.first_cell = renumbered[cut.back];
+        if (is_lit[c]) {
+            const Cut& cut = patches.cuts[c];
+            lit.cuts.push_back({cut.point, renumbered(cut.front), cut.normal, renumbered(cut.back)});
         }
-    for (uint patch : patches.of_side) lit.of_side.push_back(renumbered[patch]);
+    for (uint id : patches.of_side) lit.of_side.push_back(renumbered(id));
     return lit;
 }
 
@@ -158,7 +158,7 @@ void append_cells(const std::vector<std::vector<uint>>& starts, size_t first_gri
     map.cell_starts.push_back(uint(map.places.size()));
 }
 
-/// Appends the grids of a set of photons, cuts last.
+/// Appends the grids of a set of photons, and its cuts.
 LitPatches append_grids(const Scene& scene, const RayCaster& caster, const Partition& partition,
                         const std::vector<Photon>& photons, PhotonMap& map) {
     const References references = find_references({scene, photons, partition.patches, partition.shapes, partition.radii,
@@ -180,7 +180,7 @@ LitPatches append_grids(const Scene& scene, const RayCaster& caster, const Parti
             fill_grid(grid, photons, {references.photons.data() + first, last - first}, uint(first_place + first), map);
     });
     append_cells(starts, first_grid, map);
-    map.grids.insert(map.grids.end(), lit.cuts.begin(), lit.cuts.end());
+    map.cuts.insert(map.cuts.end(), lit.cuts.begin(), lit.cuts.end());
     return lit;
 }
 
@@ -227,7 +227,6 @@ std::vector<NodePoint> add_lattices(const Scene& scene, const RayCaster& caster,
                                     const std::vector<uint>& kept, PhotonMap& map) {
     std::vector<PatchShape> shapes;
     for (uint patch : kept) shapes.push_back(partition.shapes[patch]);
-    shapes.resize(map.grids.size());  // cuts have none
     std::vector<NodePoint> nodes = lay_lattices(scene, shapes, nodes_apart * map.settings.radius, map);
     if (!map.settings.direct_in_photons) {
         map.visible_lamps = find_visibility(scene, caster, map, nodes);
@@ -264,11 +263,12 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     const std::vector<NodePoint> nodes = add_lattices(scene, caster, partition, lit.kept, map);
     std::vector<uint> irradiance = find_irradiance(scene, caster, map, nodes, map.irradiance_scale);
     if (!caustic.empty()) {
-        const size_t others_end = map.grids.size();
+        const size_t others_end = map.grids.size(), other_cuts = map.cuts.size();
         LitPatches caustics = append_grids(scene, caster, partition, caustic, map);
         for (uint& grid : caustics.of_side) ++grid;  // none: 0
         map.caustic_sides = SparseArray(caustics.of_side);
         map.caustic_grids = uint(map.grids.size() - others_end);
+        map.caustic_cuts = uint(map.cuts.size() - other_cuts);
         if (map.has_visible_lamps()) map.smooth_caustics = add_smooth_caustics(scene, nodes, map, irradiance);
     }
     map.irradiance = SparseArray(irradiance);

@@ -101,13 +101,17 @@ class MapSamples {
 
 /// The area a sample of each triangle stands for: at most `area`, and a patch has at least samples_of_patch.
 std::vector<float> areas_of_samples(const Scene& scene, const Patches& patches, float area) {
-    std::vector<double> patch_areas(patches.count + patches.cuts.size(), 0);  // of the whole when it is cut
+    std::vector<double> patch_areas(patches.count, 0),
+        cut_areas(patches.cuts.size(), 0);  // of the whole when it is cut
+    const auto area_of_side = [&](size_t side) -> double& {
+        const uint id = patches.of_side[side];
+        return is_cut(id) ? cut_areas[id & ~cut_bit] : patch_areas[id];
+    };
     for (size_t t = 0; t < scene.triangles.size(); ++t)
-        for (size_t side = 2 * t; side < 2 * t + 2; ++side)
-            patch_areas[patches.of_side[side]] += triangle_area(scene, t);
+        for (size_t side = 2 * t; side < 2 * t + 2; ++side) area_of_side(side) += triangle_area(scene, t);
     std::vector<float> areas(scene.triangles.size());
     for (size_t t = 0; t < areas.size(); ++t) {
-        const double smaller = std::min(patch_areas[patches.of_side[2 * t]], patch_areas[patches.of_side[2 * t + 1]]);
+        const double smaller = std::min(area_of_side(2 * t), area_of_side(2 * t + 1));
         areas[t] = std::max(1e-20f, std::min(area, float(smaller / samples_of_patch)));
     }
     return areas;
@@ -173,7 +177,7 @@ std::vector<char> WantedSamples::sides() const {
         const auto all = neighbours.of(patch);
         near[patch] = is_wanted[patch] || std::any_of(all.begin(), all.end(), [&](uint p) { return is_wanted[p]; });
     }
-    for (uint patch : patches.of_side) wanted.push_back(patch >= patches.count || near[patch]);  // a cut: its pieces
+    for (uint patch : patches.of_side) wanted.push_back(is_cut(patch) || near[patch]);  // a cut: its pieces
     return wanted;
 }
 
@@ -227,7 +231,6 @@ void sample_coverage(const PhotonMap& map, const std::vector<NodePoint>& nodes, 
         if (nodes_of_map[m].empty()) return;
         const SurfaceGrid& grid = map.grids[m];
         const SurfaceLattice& lattice = grid.lattice;
-        if (grid.columns == 0) return;
         const uint* all = references.photons.data();
         const MapSamples own(grid, samples, all + references.starts[patch_of_map[m]],
                              all + references.starts[patch_of_map[m] + 1]);

@@ -93,21 +93,17 @@ class Cutter {
         left_ = max_cuts;
         free_ = patch;
         const uint root = divide(outline, 0);
-        if (root & is_cut) roots_[patch] = root;
+        if (is_cut(root)) roots_[patch] = root;
     }
 
-    /// Numbers the cuts behind all patches.
+    /// Has the sides of the patches that were cut refer to their first cuts.
     void finish() {
         patches_.count = uint(shapes_.size());
-        const auto number = [&](uint id) { return id & is_cut ? patches_.count + (id & ~is_cut) : id; };
-        for (PatchCut& c : patches_.cuts) c.front = number(c.front), c.back = number(c.back);
         for (uint& side : patches_.of_side)
-            if (roots_[side] != no_map) side = number(roots_[side]);
+            if (roots_[side] != no_map) side = roots_[side];
     }
 
   private:
-    static constexpr uint is_cut = 1u << 31;
-
     uint divide(const Outline& outline, int depth) {
         const WallLine* best = nullptr;
         float most = 0.02f * radius_;
@@ -120,11 +116,11 @@ class Cutter {
         const auto index = uint(patches_.cuts.size());
         const vec3 up = whole_.v_axis * best->along.x - whole_.u_axis * best->along.y;
         const vec3 point = whole_.anchor + whole_.u_axis * best->point.x + whole_.v_axis * best->point.y;
-        patches_.cuts.push_back({point, up, 0, 0});
+        patches_.cuts.push_back({point, no_map, up, no_map});
         const uint front = divide(part_of(outline, *best, 1), depth + 1);
         const uint back = divide(part_of(outline, *best, -1), depth + 1);
         patches_.cuts[index].front = front, patches_.cuts[index].back = back;
-        return index | is_cut;
+        return index | cut_bit;
     }
 
     /// The first piece takes the place of the whole.

@@ -82,7 +82,7 @@ class GatherText : public SurfaceReader {
         return counted(Record::word), maps_.caustic_map_of(triangle, front);
     }
     const SurfaceGrid& grid_at(uint map) const { return counted(Record::grid), maps_.grid_at(map); }
-    bool is_cut(uint map) const { return maps_.is_cut(map); }
+    const Cut& cut_at(uint i) const { return counted(Record::grid), maps_.cut_at(i); }
     uint cell_start(uint cell) const { return counted(Record::word), maps_.cell_start(cell); }
     const BvhNode& bvh_node_at(uint i) const { return counted(Record::box), bvh_.nodes[i]; }
     uint bvh_triangle_at(uint i) const { return counted(Record::triangle), bvh_.triangles[i]; }

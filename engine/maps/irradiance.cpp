@@ -173,7 +173,6 @@ std::vector<uint> find_irradiance(const Scene& scene, const RayCaster& caster, c
     const NodeLight node_light(scene, caster, map, nodes);
     Progress progress("irradiance", nodes.size());
     parallel_for(map.grids.size(), [&](size_t m) {
-        if (map.grids[m].lattice.columns == 0) return;  // a cut
         node_light.light_map(uint(m), light);
         progress.step(map.grids[m].lattice.columns * map.grids[m].lattice.rows);
     });

@@ -113,7 +113,6 @@ std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchS
     uint64_t count = 0;
     for (size_t m = 0; m < map.grids.size(); ++m) {
         SurfaceLattice& lattice = map.grids[m].lattice;
-        if (map.grids[m].columns == 0) continue;
         lattice = fit_lattice(shapes[m], map.grids[m], spacing);
         lattice.first_node = uint(count);
         count += uint64_t(lattice.columns) * lattice.rows;

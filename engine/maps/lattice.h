@@ -18,8 +18,8 @@ struct NodePoint {
     bool exists() const { return triangle != no_map; }
 };
 
-/// Lays the lattice of every map, at most `spacing` metres between nodes; shapes[m] is the shape of map m; cuts have
-/// none. Returns the points of all nodes; a node farther than a cell from the surface has none: no look-up ever weighs
+/// Lays the lattice of every map, at most `spacing` metres between nodes; shapes[m] is the shape of map m.
+/// Returns the points of all nodes; a node farther than a cell from the surface has none: no look-up ever weighs
 /// it.
 std::vector<NodePoint> lay_lattices(const Scene& scene, const std::vector<PatchShape>& shapes, float spacing,
                                     PhotonMap& map);

@@ -21,9 +21,9 @@ class MapReader {
     uint caustic_map_of(uint triangle, bool front) const {
         return map_.caustic_map_of(2 * size_t(triangle) + (front ? 0 : 1));
     }
-    /// The grid or cut of this index; an empty one for no_map.
+    /// The grid of this index; an empty one for no_map.
     const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : no_grid; }
-    bool is_cut(uint map) const { return map < map_.grids.size() && map_.grids[map].columns == 0; }
+    const Cut& cut_at(uint i) const { return map_.cuts[i]; }
     uint cell_start(uint cell) const { return map_.cell_starts[cell]; }
     uint node_coverage(uint node) const { return map_.coverage[node]; }
 

@@ -5,27 +5,19 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "shaders/photon_map.h"
 
 namespace lw {
 
-/// A plane that parts the pieces of a patch: a wall stands along it.
-struct PatchCut {
-    vec3 point, up;
-    uint front, back;  // on the side that `up` points to and on the other: a patch, or count + another cut
-};
-
 struct Patches {
-    std::vector<uint> of_side;  // 2 per triangle (front, back): patch, or count + cut
+    std::vector<uint> of_side;  // 2 per triangle (front, back): patch or cut
     uint count = 0;
-    std::vector<PatchCut> cuts{};  // after those that lead to them
+    std::vector<Cut> cuts{};  // each before those it leads to
 
     /// The patch of a point of a triangle side.
     uint at(size_t side, vec3 position) const {
         uint id = of_side[side];
-        while (id >= count) {
-            const PatchCut& cut = cuts[id - count];
-            id = dot(position - cut.point, cut.up) > 0 ? cut.front : cut.back;
-        }
+        while (is_cut(id)) id = behind_cut(cuts[id & ~cut_bit], position);
         return id;
     }
 };

@@ -1,6 +1,5 @@
 // The photon maps of a scene as plain arrays, in the layout that the file and the GPU share (shaders/photon_map.h).
 #pragma once
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -26,10 +25,12 @@ struct PhotonMap {
     uint64_t stored_photons = 0;
     float flux_scale = 1;              // record flux = flux * flux_scale, keeps RGB9E5 in range
     std::vector<uint64_t> emitted;     // photons emitted per light
-    std::vector<uint> triangle_maps;   // 2 per triangle: map of the front side, of the back side, or no_map
-    SparseArray caustic_sides;         // when there are caustics, 2 per triangle: their map + 1, or 0
-    std::vector<SurfaceGrid> grids;    // per map, then the cuts; those of caustics come last and have no lattice
-    uint caustic_grids = 0;            // how many those are; their photons (path_caustic) are in no other map
+    std::vector<uint> triangle_maps;   // 2 per triangle: map or cut of the front side, of the back side, or no_map
+    SparseArray caustic_sides;         // when there are caustics, 2 per triangle: their map or cut + 1, or 0
+    std::vector<SurfaceGrid> grids;    // per map; those of caustics come last and have no lattice
+    std::vector<Cut> cuts;             // each before those it leads to; those of caustics come last
+    uint caustic_grids = 0;            // how many grids those are; their photons (path_caustic) are in no other map
+    uint caustic_cuts = 0;             // how many cuts
     std::vector<uint> cell_starts;     // cells of all maps + 1
     std::vector<PhotonPlace> places;   // 8 bytes per reference
     std::vector<uint> fluxes;          // RGB9E5 per reference
@@ -47,7 +48,7 @@ struct PhotonMap {
     /// All arrays together.
     uint64_t bytes() const {
         const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
-        return size(triangle_maps, grids, cell_starts, places, fluxes, directions, coverage, visible_lamps,
+        return size(triangle_maps, grids, cuts, cell_starts, places, fluxes, directions, coverage, visible_lamps,
                     smooth_caustics, shadow_masks) +
                caustic_sides.bytes() + irradiance.bytes();
     }
@@ -57,14 +58,15 @@ struct PhotonMap {
     template <class Visit>
     void for_each_map(uint index, const Visit& visit) const {
         if (index == no_map) return;
-        if (grids[index].columns > 0) return visit(index);
-        for_each_map(grids[index].rows, visit);
-        for_each_map(grids[index].first_cell, visit);
+        if (!is_cut(index)) return visit(index);
+        const Cut& cut = cuts[index & ~cut_bit];
+        for_each_map(cut.front, visit);
+        for_each_map(cut.back, visit);
     }
 
     /// The map of a point of a surface whose map is `index`.
     uint map_at(uint index, vec3 position) const {
-        while (index != no_map && grids[index].columns == 0) index = behind_cut(grids[index], position);
+        while (is_cut(index)) index = behind_cut(cuts[index & ~cut_bit], position);
         return index;
     }
 
@@ -76,12 +78,6 @@ struct PhotonMap {
     }
     /// True when cells know more than their lamps, see cell_words().
     bool has_marks() const { return !smooth_caustics.empty() || !shadow_masks.empty(); }
-    /// The first cut among the grids [first, last), whose maps come before their cuts; no_map without any.
-    uint first_cut(uint first, uint last) const {
-        const auto is_cut = [](const SurfaceGrid& grid) { return grid.columns == 0; };
-        const auto cut = std::find_if(grids.begin() + first, grids.begin() + last, is_cut);
-        return cut == grids.begin() + last ? no_map : uint(cut - grids.begin());
-    }
     bool has_coverage() const { return !coverage.empty(); }
     bool has_visible_lamps() const { return !visible_lamps.empty(); }
 };

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "file/map_checks.h"
 #include "maps/bake.h"
 #include "robustness/room.h"
 #include "scene/gltf.h"
@@ -154,7 +155,7 @@ TEST_F(MapFile, WithCausticsRoundTripsAndIsRefusedWhenTheirGridsAreMixedUp) {
     refused([](PhotonMap& m) { --m.caustic_grids; });
     refused([](PhotonMap& m) { m.triangle_maps[0] = uint(m.grids.size()) - 1; });
     refused([](PhotonMap& m) { m.caustic_sides.values.back() = 1; });
-    refused([](PhotonMap& m) { m.caustic_sides.values.back() = uint(m.grids.size()) + 1; });
+    refused([](PhotonMap& m) { m.caustic_sides.values.back() = uint(m.grids.size() + m.cuts.size()) + 1; });
     refused([](PhotonMap& m) { m.caustic_sides = {}; });
 }
 
@@ -185,41 +186,61 @@ TEST_F(MapFile, WithCutsRoundTripsAndIsRefusedWhenTheyLeadAstray) {
     test::Room room = test::plain_room();
     room.walls = test::joined(room.walls, test::quad({2, 0, 0}, {0, 0, 5}, {0, 3, 0}));
     const test::Baked baked(room, 5000);
-    const auto first = std::find_if(baked.map.grids.begin(), baked.map.grids.end(),
-                                    [](const SurfaceGrid& g) { return g.columns == 0; });
-    ASSERT_NE(first, baked.map.grids.end()) << "no map is cut";
-    const auto cut = size_t(first - baked.map.grids.begin());
+    ASSERT_FALSE(baked.map.cuts.empty()) << "no map is cut";
     save_photon_map(path, baked.map);
-    EXPECT_EQ(load_photon_map(path, baked.scene).grids.size(), baked.map.grids.size());
+    const PhotonMap got = load_photon_map(path, baked.scene);
+    EXPECT_EQ(got.grids.size(), baked.map.grids.size());
+    EXPECT_EQ(got.triangle_maps, baked.map.triangle_maps);
+    ASSERT_EQ(got.cuts.size(), baked.map.cuts.size());
+    EXPECT_EQ(std::memcmp(got.cuts.data(), baked.map.cuts.data(), got.cuts.size() * sizeof(Cut)), 0);
     const auto refused = [&](const char* what, const auto& damage) {
         PhotonMap bad = baked.map;
         damage(bad);
         save_photon_map(path, bad);
         EXPECT_THROW(load_photon_map(path, baked.scene), Error) << what;
     };
-    refused("before a map", [&](PhotonMap& m) {
-        std::swap(m.grids[cut - 1], m.grids[cut]);
+    refused("to itself", [&](PhotonMap& m) { m.cuts[0].front = cut_bit; });
+    refused("beyond the cuts", [&](PhotonMap& m) { m.cuts[0].back = uint(m.cuts.size()) | cut_bit; });
+    refused("no number", [&](PhotonMap& m) { m.cuts[0].point.x = NAN; });
+    refused("no direction", [&](PhotonMap& m) { m.cuts[0].normal.y = 1e30f; });
+    refused("too many one after the other", [&](PhotonMap& m) {
+        const Cut next{m.cuts[0].point, no_map, m.cuts[0].normal, no_map};
+        for (uint i = 0; i <= max_cuts_deep + 1; ++i) {
+            if (i > 0) m.cuts.back().front = uint(m.cuts.size()) | cut_bit;
+            m.cuts.push_back(next);
+        }
+        m.cuts.back().front = 0;
+    });
+}
+
+/// What a map in memory cannot be, but a file can.
+TEST_F(MapFile, CutsThatOnlyAFileCanHaveAreRefused) {
+    test::Room room = test::plain_room();
+    room.walls = test::joined(room.walls, test::quad({2, 0, 0}, {0, 0, 5}, {0, 3, 0}));
+    const test::Baked baked(room, 5000);
+    const GridRecords good = records_of(baked.map);
+    EXPECT_NO_THROW(check_records(path, good, baked.map, baked.scene));
+    const auto first =
+        std::find_if(good.records.begin(), good.records.end(), [](const SurfaceGrid& g) { return is_cut(g); });
+    ASSERT_NE(first, good.records.end()) << "no map is cut";
+    const auto cut = size_t(first - good.records.begin());
+    const auto refused = [&](const char* what, const auto& damage) {
+        GridRecords bad = good;
+        damage(bad);
+        EXPECT_THROW(check_records(path, bad, baked.map, baked.scene), Error) << what;
+    };
+    refused("before a map", [&](GridRecords& file) {
+        std::swap(file.records[cut - 1], file.records[cut]);
         const auto renumber = [&](uint& index) {
             if (index == cut || index == cut - 1) index = uint(2 * cut - 1) - index;
         };
-        for (uint& index : m.triangle_maps) renumber(index);
-        for (SurfaceGrid& g : m.grids)
-            if (g.columns == 0) renumber(g.rows), renumber(g.first_cell);
+        for (uint& index : file.of_side) renumber(index);
+        for (SurfaceGrid& g : file.records)
+            if (is_cut(g)) renumber(g.rows), renumber(g.first_cell);
     });
-    refused("to itself", [&](PhotonMap& m) { m.grids[cut].rows = uint(cut); });
-    refused("beyond the grids", [&](PhotonMap& m) { m.grids[cut].first_cell = uint(m.grids.size()); });
-    refused("no number", [&](PhotonMap& m) { m.grids[cut].origin.x = NAN; });
-    refused("no direction", [&](PhotonMap& m) { m.grids[cut].normal.y = 1e30f; });
-    refused("with a lattice", [&](PhotonMap& m) { m.grids[cut].lattice.columns = 3; });
-    refused("too many one after the other", [&](PhotonMap& m) {
-        SurfaceGrid next = m.grids[cut];
-        next.rows = next.first_cell = no_map;
-        for (uint i = 0; i <= max_cuts_deep + 1; ++i) {
-            if (i > 0) m.grids.back().rows = uint(m.grids.size());
-            m.grids.push_back(next);
-        }
-        m.grids.back().rows = 0;
-    });
+    refused("to itself", [&](GridRecords& file) { file.records[cut].rows = uint(cut); });
+    refused("beyond the grids", [&](GridRecords& file) { file.records[cut].first_cell = uint(file.records.size()); });
+    refused("with a lattice", [&](GridRecords& file) { file.records[cut].lattice.columns = 3; });
 }
 
 /// Each of these was found by taking its check away: no quick test failed.

@@ -226,7 +226,6 @@ MapTreeSearch::MapTreeSearch(const PhotonMap& map)
     : map_(map), local_(map.places.size()), points_(map.grids.size()), trees_(map.grids.size()) {
     parallel_for(map.grids.size(), [&](size_t m) {
         const SurfaceGrid& grid = map.grids[m];
-        if (grid.columns == 0) return;  // a cut
         const uint first = map.cell_starts[grid.first_cell];
         const uint last = map.cell_starts[grid.first_cell + grid.columns * grid.rows];
         for (uint i = first; i < last; ++i) local_[i] = place_in_grid(map.places[i], grid);
