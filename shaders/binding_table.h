@@ -7,7 +7,7 @@
 
 // The scene and its map, set 0 (gather/resident). Corners are three per triangle, without indices.
 LW_BINDING(scene, corners, texels, 1, all_stages)       // RGBA32F twice: position and u, normal and v of uv0
-LW_BINDING(scene, triangles, texels, 1, all_stages)     // RGBA32: map or cut of the front, of the back, material, light or -1
+LW_BINDING(scene, triangles, texels, 1, all_stages)     // RGBA32: map or cut of front and back, material, light or -1
 LW_BINDING(scene, uv1, texels, 1, all_stages)           // RG32F per corner
 LW_BINDING(scene, colors, texels, 1, all_stages)        // RGBA32F per corner
 LW_BINDING(scene, tangents, texels, 1, all_stages)      // RGBA32F per corner

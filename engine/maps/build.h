@@ -18,7 +18,7 @@ float automatic_radius(const Scene& scene, uint64_t photons);
 /// small patches get a smaller one while references per photon exceed 2.3.
 /// Directions are kept only when a surface of
 /// the scene needs them (a specular lobe or a normal map). Same input gives the same bytes at any thread count.
-PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings settings);
+PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Photons& photons, BakeSettings wanted);
 
 /// True when reflected radiance depends on the direction of the photons.
 bool needs_directions(const Scene& scene);

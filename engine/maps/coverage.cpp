@@ -7,16 +7,14 @@
 
 #include "base/parallel.h"
 #include "base/wide_vectors.h"
+#include "maps/buried.h"
+#include "maps/coverage_samples.h"
 #include "maps/kernel_weight.h"
-#include "scene/surface.h"
-#include "scene/triangle.h"
-#include "trace/sampling.h"
+#include "maps/plane_maps.h"
+#include "maps/references.h"
 
 namespace lw {
 namespace {
-
-constexpr int rays_around = 4;
-constexpr double samples_of_patch = 64;
 
 /// The samples that belong to one map, sorted into square cells of half the radius in the frame of its grid.
 class MapSamples {
@@ -99,31 +97,6 @@ class MapSamples {
     std::vector<float> u_, v_, h_, area_;  // in the order of the cells
 };
 
-/// The area a sample of each triangle stands for: at most `area`, and a patch has at least samples_of_patch.
-std::vector<float> areas_of_samples(const Scene& scene, const Patches& patches, float area) {
-    std::vector<double> patch_areas(patches.count, 0),
-        cut_areas(patches.cuts.size(), 0);  // of the whole when it is cut
-    const auto area_of_side = [&](size_t side) -> double& {
-        const uint id = patches.of_side[side];
-        return is_cut(id) ? cut_areas[id & ~cut_bit] : patch_areas[id];
-    };
-    for (size_t t = 0; t < scene.triangles.size(); ++t)
-        for (size_t side = 2 * t; side < 2 * t + 2; ++side) area_of_side(side) += triangle_area(scene, t);
-    std::vector<float> areas(scene.triangles.size());
-    for (size_t t = 0; t < areas.size(); ++t) {
-        const double smaller = std::min(area_of_side(2 * t), area_of_side(2 * t + 1));
-        areas[t] = std::max(1e-20f, std::min(area, float(smaller / samples_of_patch)));
-    }
-    return areas;
-}
-
-/// True when another triangle lies in the same place and is the one that rays meet there: it holds the photons, and
-/// only its samples count. Without this, duplicate or overlapping triangles would be dark: more area, not more photons.
-bool is_overlaid(const RayCaster& caster, vec3 point, vec3 normal, uint triangle) {
-    const std::optional<Hit> hit = caster.nearest(caster.offset(point, normal), -normal, 2 * caster.epsilon());
-    return hit && hit->triangle != triangle;
-}
-
 uint pack_levels(const CoverageLevels& levels) {
     uint bits = 0;
     for (uint i = 0; i < coverage_levels; ++i)
@@ -131,118 +104,65 @@ uint pack_levels(const CoverageLevels& levels) {
     return bits;
 }
 
-}  // namespace
+/// Counts the coverage of some nodes of each grid, nodes_of_grid[m] from its first, from samples around them.
+void sample_coverage(const CoverageInput& input, const std::vector<std::vector<uint>>& nodes_of_grid,
+                     const std::vector<Photon>& samples, std::vector<CoverageLevels>& coverage) {
+    const PatchGrids& surfaces = input.nodes.surfaces;
+    const References references = find_references({input.scene, input.caster, input.partition, samples});
+    parallel_for(nodes_of_grid.size(), [&](size_t m) {
+        if (nodes_of_grid[m].empty()) return;
+        const SurfaceGrid& grid = surfaces.grids[m];
+        const SurfaceLattice& lattice = grid.lattice;
+        const uint* all = references.photons.data();
+        const MapSamples own(grid, samples, all + references.starts[surfaces.patches[m]],
+                             all + references.starts[surfaces.patches[m] + 1]);
+        for (uint n : nodes_of_grid[m]) {
+            const vec2 at = lattice.low + vec2(float(n % lattice.columns), float(n / lattice.columns)) * lattice.step;
+            const uint node = lattice.first_node + n;
+            coverage[node] = own.sum_kernels(vec3(at, input.nodes.points[node].height), input.partition.radius);
+        }
+    });
+}
 
-bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance, Rng& rng) {
-    const mat3 frame = frame_around(normal);
-    const vec3 origin = caster.offset(point, normal);
-    for (int i = 0; i < rays_around; ++i) {
-        const float u = (float(i) + rng.next()) / rays_around;
-        const vec3 direction = sample_cosine(u, rng.next());
-        if (!caster.nearest(origin, frame * direction, clearance / std::max(direction.z, 0.2f))) return false;
+/// Writes the coverage of the nodes of grid m that has a closed form; returns the other nodes, from its first.
+std::vector<uint> cover_flat_nodes(const CoverageInput& input, size_t m, std::vector<CoverageLevels>& coverage) {
+    const PatchGrids& surfaces = input.nodes.surfaces;
+    const SurfaceLattice& lattice = surfaces.grids[m].lattice;
+    if (input.partition.shapes[surfaces.patches[m]].outline.empty())
+        return find_flat_coverage(input, m, &coverage[lattice.first_node]);
+    std::vector<uint> others;  // walls stand around it
+    for (uint i = 0; i < lattice.columns * lattice.rows; ++i)
+        if (input.nodes.points[lattice.first_node + i].exists()) others.push_back(i);
+    return others;
+}
+
+/// What samples are wanted for: the neighbourhoods of these nodes of each grid.
+WantedSamples samples_for(const CoverageInput& input, const std::vector<std::vector<uint>>& nodes_of_grid) {
+    const PatchGrids& surfaces = input.nodes.surfaces;
+    WantedSamples wanted{input.partition, std::vector<char>(input.partition.patches.count, 0),
+                         Neighbourhoods(1.01f * input.partition.radius)};
+    for (size_t m = 0; m < nodes_of_grid.size(); ++m) {
+        wanted.is_wanted[surfaces.patches[m]] = !nodes_of_grid[m].empty();
+        const SurfaceLattice& lattice = surfaces.grids[m].lattice;
+        for (uint i : nodes_of_grid[m])
+            wanted.neighbourhoods.add(point_on_lattice(surfaces.grids[m],
+                                                       vec2(float(i % lattice.columns), float(i / lattice.columns)),
+                                                       input.nodes.points[lattice.first_node + i].height));
     }
-    return true;
-}
-
-uint64_t Neighbourhoods::bit_of(vec3 cell) const {
-    const uint64_t x = uint64_t(uint32_t(int(cell.x))), y = uint64_t(uint32_t(int(cell.y))), z = uint64_t(int(cell.z));
-    return mix64((x << 32 | y) ^ z * 0x9e3779b97f4a7c15ull) % bit_count;
-}
-
-void Neighbourhoods::add(vec3 point) {
-    const vec3 low = floor(point / radius_) - 1.0f,
-               high = floor(point / radius_) + 1.0f;  // cells as wide as the radius
-    for (float z = low.z; z <= high.z; ++z)
-        for (float y = low.y; y <= high.y; ++y)
-            for (float x = low.x; x <= high.x; ++x) {
-                const uint64_t bit = bit_of({x, y, z});
-                bits_[bit / 64] |= 1ull << bit % 64;
-            }
-}
-
-bool Neighbourhoods::contain(vec3 point) const {
-    const uint64_t bit = bit_of(floor(point / radius_));
-    return bits_[bit / 64] >> bit % 64 & 1;
-}
-
-bool WantedSamples::contain(size_t side, vec3 position) const {
-    const uint own = patches.at(side, position);
-    const auto near = neighbours.near(own, position);
-    return is_wanted[own] || std::any_of(near.begin(), near.end(), [&](uint patch) { return is_wanted[patch]; });
-}
-
-std::vector<char> WantedSamples::sides() const {
-    std::vector<char> near(patches.count), wanted;
-    for (uint patch = 0; patch < patches.count; ++patch) {
-        const auto all = neighbours.of(patch);
-        near[patch] = is_wanted[patch] || std::any_of(all.begin(), all.end(), [&](uint p) { return is_wanted[p]; });
-    }
-    for (uint patch : patches.of_side) wanted.push_back(is_cut(patch) || near[patch]);  // a cut: its pieces
     return wanted;
 }
 
-std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted,
-                                    float area, float clearance) {
-    constexpr size_t chunk = 1024;
-    const std::vector<float> shares = areas_of_samples(scene, wanted.patches, area);
-    const std::vector<char> sides = wanted.sides();
-    std::vector<uint> counts(scene.triangles.size());
-    double waiting = 0.5;
-    for (size_t t = 0; t < counts.size(); ++t) {
-        waiting += triangle_area(scene, t) / double(shares[t]);
-        counts[t] = uint(waiting);
-        waiting -= counts[t];
-    }
-    std::vector<std::vector<Photon>> chunks((counts.size() + chunk - 1) / chunk);
-    parallel_for(chunks.size(), [&](size_t k) {
-        for (size_t t = k * chunk; t < std::min(counts.size(), (k + 1) * chunk); ++t) {
-            if (!sides[2 * t] && !sides[2 * t + 1]) continue;
-            const auto scramble = uint32_t(mix64(t));
-            const auto [p0, p1, p2] = triangle_corners(scene, t);
-            const vec3 product = edge_product(p0, p1, p2);
-            for (uint i = 0; i < counts[t]; ++i) {
-                const vec2 place = sample_triangle(sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
-                const vec3 position = (1 - place.x - place.y) * p0 + place.x * p1 + place.y * p2;
-                if (!wanted.neighbourhoods.contain(position)) continue;
-                const bool wanted_sides[] = {wanted.contain(2 * t, position), wanted.contain(2 * t + 1, position)};
-                if (!wanted_sides[0] && !wanted_sides[1]) continue;
-                if (is_overlaid(caster, position, normalize(product), uint(t))) continue;
-                for (uint side = 0; side < 2; ++side) {
-                    if (!wanted_sides[side]) continue;
-                    const vec3 n = product / (side ? -length(product) : length(product));
-                    Rng rng(1, 2 * t + side, i);
-                    if (is_buried(caster, position, n, clearance, rng)) continue;
-                    chunks[k].push_back({position, vec3(shares[t]), n, uint(t), pack_origin(0, path_direct, side)});
-                }
-            }
-        }
-    });
-    std::vector<Photon> samples;
-    samples.reserve(std::accumulate(chunks.begin(), chunks.end(), size_t(0),
-                                    [](size_t sum, const std::vector<Photon>& part) { return sum + part.size(); }));
-    for (const auto& part : chunks) samples.insert(samples.end(), part.begin(), part.end());
-    return samples;
-}
+}  // namespace
 
-void sample_coverage(const PhotonMap& map, const std::vector<NodePoint>& nodes, const std::vector<Photon>& samples,
-                     const References& references, const std::vector<uint>& patch_of_map,
-                     const std::vector<std::vector<uint>>& nodes_of_map, std::vector<CoverageLevels>& coverage) {
-    parallel_for(nodes_of_map.size(), [&](size_t m) {
-        if (nodes_of_map[m].empty()) return;
-        const SurfaceGrid& grid = map.grids[m];
-        const SurfaceLattice& lattice = grid.lattice;
-        const uint* all = references.photons.data();
-        const MapSamples own(grid, samples, all + references.starts[patch_of_map[m]],
-                             all + references.starts[patch_of_map[m] + 1]);
-        for (uint n : nodes_of_map[m]) {
-            const vec2 at = lattice.low + vec2(float(n % lattice.columns), float(n / lattice.columns)) * lattice.step;
-            const uint node = lattice.first_node + n;
-            coverage[node] = own.sum_kernels(vec3(at, nodes[node].height), map.settings.radius);
-        }
-    });
-}
-
-std::vector<uint> pack_coverage(const std::vector<CoverageLevels>& coverage) {
+std::vector<uint> find_coverage(const CoverageInput& input) {
+    const float radius = input.partition.radius;
+    std::vector<CoverageLevels> coverage(input.nodes.points.size(), CoverageLevels{1, 1, 1, 1});
+    std::vector<std::vector<uint>> others(input.nodes.surfaces.grids.size());
+    parallel_for(others.size(), [&](size_t m) { others[m] = cover_flat_nodes(input, m, coverage); });
+    const std::vector<Photon> samples =
+        sample_surfaces(input.scene, input.caster, samples_for(input, others),
+                        {.area = 0.03f * radius * radius, .clearance = clearance_of(radius)});
+    sample_coverage(input, others, samples, coverage);
     std::vector<uint> packed;
     packed.reserve(coverage.size());
     for (const CoverageLevels& levels : coverage) packed.push_back(pack_levels(levels));

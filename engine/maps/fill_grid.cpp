@@ -28,7 +28,7 @@ vec2 dither_of(uint photon) {
 }
 
 std::vector<Record> bring_into_frame(const SurfaceGrid& grid, const std::vector<Photon>& photons,
-                                     std::span<const uint> chosen, const PhotonMap& map, Bounds& bounds) {
+                                     std::span<const uint> chosen, const PhotonRecords& packed, Bounds& bounds) {
     std::vector<Record> records;
     records.reserve(chosen.size());
     constexpr size_t ahead = 24;  // records on their way from memory
@@ -37,8 +37,8 @@ std::vector<Record> bring_into_frame(const SurfaceGrid& grid, const std::vector<
         const Photon& p = photons[chosen[i]];
         const vec3 local = position_in_grid(grid, p.position);
         bounds.low = min(bounds.low, local), bounds.high = max(bounds.high, local);
-        records.push_back({local, p.origin & 0xffffu, pack_rgb9e5(p.flux * map.flux_scale),
-                           map.has_directions() ? pack_direction(p.from, dither_of(chosen[i])) : uint16_t(0)});
+        records.push_back({local, p.origin & 0xffffu, pack_rgb9e5(p.flux * packed.flux_scale),
+                           packed.has_directions() ? pack_direction(p.from, dither_of(chosen[i])) : uint16_t(0)});
     }
     return records;
 }
@@ -79,9 +79,9 @@ uint cell_of(PhotonPlace place, const SurfaceGrid& grid) {
 }  // namespace
 
 std::vector<uint> fill_grid(SurfaceGrid& grid, const std::vector<Photon>& photons, std::span<const uint> chosen,
-                            uint begin, PhotonMap& map) {
+                            uint begin, PhotonRecords& packed) {
     Bounds bounds;
-    const std::vector<Record> records = bring_into_frame(grid, photons, chosen, map, bounds);
+    const std::vector<Record> records = bring_into_frame(grid, photons, chosen, packed, bounds);
     fit_grid(grid, bounds, records.size());
     std::vector<PhotonPlace> places(records.size());
     std::vector<uint> cells(records.size()), next(size_t(grid.columns) * grid.rows, 0);
@@ -94,9 +94,9 @@ std::vector<uint> fill_grid(SurfaceGrid& grid, const std::vector<Photon>& photon
     const std::vector<uint> starts = next;
     for (size_t i = 0; i < records.size(); ++i) {
         const uint slot = next[cells[i]]++;
-        map.places[slot] = places[i];
-        map.fluxes[slot] = records[i].flux;
-        if (map.has_directions()) map.directions[slot] = records[i].direction;
+        packed.places[slot] = places[i];
+        packed.fluxes[slot] = records[i].flux;
+        if (packed.has_directions()) packed.directions[slot] = records[i].direction;
     }
     return starts;
 }

@@ -67,13 +67,13 @@ struct Wall {
 /// The ground around the blocks of one map, in the frame of its grid.
 class Ground {
   public:
-    Ground(const Scene& scene, const RayCaster& caster, const PhotonMap& map, size_t m, const PatchShape& shape)
-        : scene_(scene),
-          caster_(caster),
-          grid_(map.grids[m]),
-          shape_(shape),
-          radius_(map.settings.radius),
-          cos_angle_(std::cos(glm::radians(map.settings.neighbour_angle_deg))) {
+    Ground(const CoverageInput& input, size_t m)
+        : scene_(input.scene),
+          caster_(input.caster),
+          grid_(input.nodes.surfaces.grids[m]),
+          shape_(input.partition.shapes[input.nodes.surfaces.patches[m]]),
+          radius_(input.partition.radius),
+          cos_angle_(std::cos(glm::radians(input.partition.neighbour_angle_deg))) {
         limit_support();
     }
 
@@ -273,13 +273,14 @@ class FlatCoverage {
 
 }  // namespace
 
-void find_flat_coverage(const Scene& scene, const RayCaster& caster, const PhotonMap& map, size_t m,
-                        const PatchShape& shape, const NodePoint* nodes, CoverageLevels* coverage,
-                        std::vector<uint>& others) {
-    const SurfaceLattice& lattice = map.grids[m].lattice;
-    FlatCoverage flat(Ground(scene, caster, map, m, shape), map.grids[m], nodes, coverage, others);
+std::vector<uint> find_flat_coverage(const CoverageInput& input, size_t m, CoverageLevels* coverage) {
+    const SurfaceGrid& grid = input.nodes.surfaces.grids[m];
+    const SurfaceLattice& lattice = grid.lattice;
+    std::vector<uint> others;
+    FlatCoverage flat(Ground(input, m), grid, &input.nodes.points[lattice.first_node], coverage, others);
     for (uint y = 0; y < lattice.rows; y += block_side)
         for (uint x = 0; x < lattice.columns; x += block_side) flat.cover(x, y, block_side);
+    return others;
 }
 
 }  // namespace lw

@@ -4,10 +4,18 @@
 #include <array>
 #include <vector>
 
-#include "maps/lattice.h"
+#include "maps/nodes.h"
 #include "trace/ray_caster.h"
 
 namespace lw {
+
+/// What the coverage of nodes follows from; all of it must outlive the search.
+struct CoverageInput {
+    const Scene& scene;
+    const RayCaster& caster;
+    const Partition& partition;
+    const Nodes& nodes;
+};
 
 using CoverageLevels = std::array<float, coverage_levels>;
 
@@ -16,11 +24,9 @@ using CoverageLevels = std::array<float, coverage_levels>;
 /// largest.
 CoverageLevels integrate_kernels(const std::vector<vec2>& polygon, const CoverageLevels& radii);
 
-/// The coverage of the nodes of map m where it has a closed form; the others are left alone and listed in `others`, as
-/// indices from the first node of the map. coverage[i]: node i of the map.
-void find_flat_coverage(const Scene& scene, const RayCaster& caster, const PhotonMap& map, size_t m,
-                        const PatchShape& shape, const NodePoint* nodes, CoverageLevels* coverage,
-                        std::vector<uint>& others);
+/// The coverage of the nodes of grid m where it has a closed form: coverage[i] is that of its node i. The others are
+/// left alone; their indices, from the first node of the grid, are returned.
+std::vector<uint> find_flat_coverage(const CoverageInput& input, size_t m, CoverageLevels* coverage);
 
 /// The radii of the levels of a map, m.
 CoverageLevels radii_of_levels(const SurfaceGrid& grid);

@@ -5,11 +5,12 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "maps/coverage.h"
-#include "maps/map_reader.h"
+#include "maps/buried.h"
+#include "maps/grid_reader.h"
 #include "maps/packing.h"
 #include "maps/photon_sums.h"
 #include "maps/smoothing.h"
+#include "scene/surface.h"
 #include "shaders/color.h"
 #include "trace/emitter.h"
 #include "trace/sampling.h"
@@ -20,32 +21,35 @@ namespace {
 constexpr uint rays_to_mesh = 16;
 constexpr float max_record = 4096;
 
-/// Light at the nodes of one map after another.
+/// Light at the nodes of one grid after another.
 class NodeLight {
   public:
-    NodeLight(const Scene& scene, const RayCaster& caster, const PhotonMap& map, const std::vector<NodePoint>& nodes)
-        : scene_(scene),
-          caster_(caster),
-          map_(map),
-          surfaces_(scene),
-          maps_(map),
-          nodes_(nodes),
-          emitters_(scene),
-          lamps_(uint(scene.lights.size())),
-          has_meshes_(std::any_of(scene.lights.begin(), scene.lights.end(),
-                                  [](const Light& lamp) { return lamp.type == light_mesh; })) {}
+    explicit NodeLight(const IrradianceInput& input)
+        : scene_(input.scene),
+          caster_(input.caster),
+          grids_(input.lattice.surfaces.grids),
+          nodes_(input.lattice.nodes),
+          coverage_(input.lattice.coverage),
+          photons_(input.photons),
+          visible_lamps_(input.visible_lamps),
+          max_radius_(input.lattice.radius),
+          surfaces_(input.scene),
+          cells_{input.photons, input.lattice.radius},
+          emitters_(input.scene),
+          lamps_(uint(input.scene.lights.size())),
+          adds_meshes_(!input.visible_lamps.empty() && has_meshes(input.scene)) {}
 
-    /// Writes light[lamp * all nodes + node] for the nodes of map m.
+    /// Writes light[lamp * all nodes + node] for the nodes of grid m.
     void light_map(uint m, std::vector<vec3>& light) const {
-        const SurfaceLattice& lattice = map_.grids[m].lattice;
-        const LatticePlanes reflected = reflected_light(map_.grids[m]);
+        const SurfaceLattice& lattice = grids_[m].lattice;
+        const LatticePlanes reflected = reflected_light(grids_[m]);
         for (uint y = 0; y < lattice.rows; ++y)
             for (uint x = 0; x < lattice.columns; ++x)
                 for (uint lamp = 0; lamp < lamps_; ++lamp)
                     for (uint c = 0; c < 3; ++c)
                         light[index(lamp, lattice.first_node + y * lattice.columns + x)][int(c)] =
                             reflected.row(3 * lamp + c, int(y))[x];
-        if (map_.has_visible_lamps() && has_meshes_) add_direct(m, light);
+        if (adds_meshes_) add_direct(m, light);
     }
 
   private:
@@ -57,7 +61,7 @@ class NodeLight {
         const SurfaceLattice& lattice = grid.lattice;
         LatticePlanes light(lattice.columns, lattice.rows, 3 * lamps_), brightness(lattice.columns, lattice.rows, 1),
             existence(lattice.columns, lattice.rows, 1);
-        const PhotonSums photons(map_, grid);
+        const PhotonSums photons(photons_, grid, max_radius_);
         std::vector<vec4> sums(PhotonSums::sums_per_lamp * lamps_);
         for (uint y = 0; y < lattice.rows; ++y)
             for (uint x = 0; x < lattice.columns; ++x) {
@@ -80,23 +84,24 @@ class NodeLight {
         return (part[0] + part[1]) + (part[2] + part[3]);
     }
 
-    /// Returns what brings the sums of a node to lux.
+    /// Adds the photons around a node to the sums of each lamp. Returns the factor from the sums to lux: that of the
+    /// kernel, 2 / (pi radius^2), over the flux scale and the coverage.
     float sum_photons(const SurfaceGrid& grid, const PhotonSums& photons, uint node, std::vector<vec4>& sums) const {
         const SurfaceLattice& lattice = grid.lattice;
         const uint i = node - lattice.first_node;
         const vec3 at = surfaces_.surface_at(nodes_[node].triangle, nodes_[node].barycentrics).position;
         const vec2 uv = lattice.low + vec2(float(i % lattice.columns), float(i / lattice.columns)) * lattice.step;
         const vec3 local(uv, position_in_grid(grid, at).z);
-        const float radius = maps_.bandwidth_from_counts(grid, local);
+        const float radius = cells_.bandwidth_from_counts(grid, local);
         photons.add(local, radius, sums);
         // kernel_peak(), but for the order of the product: the last bit of the records hangs on it.
-        return kernel_height / (lw_pi * radius * radius) * (1 / map_.flux_scale) /
-               std::max(unpack_coverage(map_.coverage[node], radius / grid.radius), min_coverage);
+        return kernel_height / (lw_pi * radius * radius) * (1 / photons_.flux_scale) /
+               std::max(unpack_coverage(coverage_[node], radius / grid.radius), min_coverage);
     }
 
     /// Adds the light that comes straight from the meshes.
     void add_direct(uint m, std::vector<vec3>& light) const {
-        const SurfaceLattice& lattice = map_.grids[m].lattice;
+        const SurfaceLattice& lattice = grids_[m].lattice;
         const uint count = lattice.columns * lattice.rows;
         std::vector<char> buried(count, 1);
         std::vector<vec3> direct(size_t(count) * lamps_, vec3(0));
@@ -104,9 +109,9 @@ class NodeLight {
             const uint node = lattice.first_node + i;
             if (!nodes_[node].exists()) continue;
             const Surface s = surfaces_.surface_at(nodes_[node].triangle, nodes_[node].barycentrics);
-            const vec3 n = s.geometric_normal * (dot(s.geometric_normal, map_.grids[m].normal) < 0 ? -1.0f : 1.0f);
+            const vec3 n = s.geometric_normal * (dot(s.geometric_normal, grids_[m].normal) < 0 ? -1.0f : 1.0f);
             Rng rng(1, 2, node);
-            buried[i] = is_buried(caster_, s.position, n, clearance_of(map_.settings.radius), rng);
+            buried[i] = is_buried(caster_, s.position, n, clearance_of(max_radius_), rng);
             if (buried[i]) continue;
             for (uint lamp = 0; lamp < lamps_; ++lamp)
                 if (scene_.lights[lamp].type == light_mesh)
@@ -122,7 +127,7 @@ class NodeLight {
 
     vec3 direct_of_mesh(uint lamp, uint node, vec3 position, vec3 n) const {
         const uint words = visibility_words(lamps_);
-        const uint seen = (map_.visible_lamps[node * words + visibility_word(lamp)] >> visibility_shift(lamp)) & 3u;
+        const uint seen = (visible_lamps_[node * words + visibility_word(lamp)] >> visibility_shift(lamp)) & 3u;
         if (seen == some_hidden) return vec3(0);
         if (seen == some_visible && emitters_.is_even(lamp)) return emitters_.even_irradiance(lamp, position, n);
         vec3 sum(0);
@@ -154,34 +159,44 @@ class NodeLight {
         return open > 0 ? sum / open : vec3(0);
     }
 
+    static bool has_meshes(const Scene& scene) {
+        return std::any_of(scene.lights.begin(), scene.lights.end(),
+                           [](const Light& lamp) { return lamp.type == light_mesh; });
+    }
+
     const Scene& scene_;
     const RayCaster& caster_;
-    const PhotonMap& map_;
-    SurfaceReader surfaces_;
-    MapReader maps_;
+    const std::vector<SurfaceGrid>& grids_;
     const std::vector<NodePoint>& nodes_;
+    const std::vector<uint>& coverage_;
+    const PhotonRecords& photons_;
+    const std::vector<uint>& visible_lamps_;
+    float max_radius_;
+    SurfaceReader surfaces_;
+    GridReader cells_;
     Emitters emitters_;
     uint lamps_;
-    bool has_meshes_;
+    bool adds_meshes_;  // their direct light
 };
 
 }  // namespace
 
-std::vector<uint> find_irradiance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
-                                  const std::vector<NodePoint>& nodes, float& scale) {
-    std::vector<vec3> light(nodes.size() * scene.lights.size(), vec3(0));
-    const NodeLight node_light(scene, caster, map, nodes);
-    Progress progress("irradiance", nodes.size());
-    parallel_for(map.grids.size(), [&](size_t m) {
+NodeIrradiance find_irradiance(const IrradianceInput& input) {
+    const std::vector<SurfaceGrid>& grids = input.lattice.surfaces.grids;
+    const size_t nodes = input.lattice.nodes.size();
+    std::vector<vec3> light(nodes * input.scene.lights.size(), vec3(0));
+    const NodeLight node_light(input);
+    Progress progress("irradiance", nodes);
+    parallel_for(grids.size(), [&](size_t m) {
         node_light.light_map(uint(m), light);
-        progress.step(map.grids[m].lattice.columns * map.grids[m].lattice.rows);
+        progress.step(grids[m].lattice.columns * grids[m].lattice.rows);
     });
     float top = 0;
     for (const vec3& e : light) top = std::max(top, largest(e));
-    scale = top > 0 ? std::exp2(std::floor(std::log2(max_record / top))) : 1.0f;
-    std::vector<uint> packed(light.size());
+    NodeIrradiance packed{std::vector<uint>(light.size()),
+                          top > 0 ? std::exp2(std::floor(std::log2(max_record / top))) : 1.0f};
     parallel_for(
-        packed.size(), [&](size_t i) { packed[i] = pack_rgb9e5(light[i] * scale); }, 4096);
+        light.size(), [&](size_t i) { packed.records[i] = pack_rgb9e5(light[i] * packed.scale); }, 4096);
     return packed;
 }
 

@@ -8,11 +8,24 @@
 
 namespace lw {
 
-/// Irradiance of all nodes for lamp 0, then lamp 1, ...: what the photons bring (default GatherSettings), and the
-/// direct light of emissive meshes, whose shadows are soft, where photons do not hold it. That of point, spot and
-/// directional lamps is left to shadow rays. RGB9E5 of lux per unit intensity x scale, which is chosen so that the
-/// brightest fits.
-std::vector<uint> find_irradiance(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
-                                  const std::vector<NodePoint>& nodes, float& scale);
+/// Irradiance of all nodes for lamp 0, then of all for lamp 1, ...
+struct NodeIrradiance {
+    std::vector<uint> records;  // RGB9E5 of lux per unit intensity x scale
+    float scale = 1;            // so that the brightest fits
+};
+
+/// What it follows from; all of it must outlive the search.
+struct IrradianceInput {
+    const Scene& scene;
+    const RayCaster& caster;
+    const Lattice& lattice;
+    const PhotonRecords& photons;            // in the grids of the lattice
+    const std::vector<uint>& visible_lamps;  // of find_visibility(); empty where photons hold all light
+};
+
+/// What the photons bring to the nodes, with the bandwidth of 300 photons, and the direct light of emissive meshes,
+/// whose shadows are soft, where photons do not hold it. That of point, spot and directional lamps is left to shadow
+/// rays.
+NodeIrradiance find_irradiance(const IrradianceInput& input);
 
 }  // namespace lw

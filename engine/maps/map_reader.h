@@ -2,7 +2,7 @@
 // text of shaders/map_lookup.glsl over a PhotonMap.
 #pragma once
 #include "maps/gather_settings.h"
-#include "maps/photon_map.h"
+#include "maps/grid_reader.h"
 
 namespace lw {
 
@@ -22,7 +22,7 @@ class MapReader {
         return map_.caustic_map_of(2 * size_t(triangle) + (front ? 0 : 1));
     }
     /// The grid of this index; an empty one for no_map.
-    const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : no_grid; }
+    const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : empty_grid; }
     const Cut& cut_at(uint i) const { return map_.cuts[i]; }
     uint cell_start(uint cell) const { return map_.cell_starts[cell]; }
     uint node_coverage(uint node) const { return map_.coverage[node]; }
@@ -33,21 +33,11 @@ class MapReader {
     /// on the same surface. `local`: the point in the frame of the grid.
     template <class Visit>
     void visit_photons(const SurfaceGrid& grid, vec3 local, float radius, const Visit& visit) const {
-        const vec3 reach(radius, radius, 0);
-        const ivec2 low = cell_of(local - reach, grid), high = cell_of(local + reach, grid);
-        for (int y = low.y; y <= high.y; ++y) {
-            const uvec2 span = row_span(grid, low.x, high.x, y);
-            for (uint i = span.x; i < span.y; ++i) {
-                const PhotonPlace place = map_.places[i];
-                const vec3 d = place_in_grid(place, grid) - local;
-                const float d2 = dot(d, d);
-                if (d2 < radius * radius && on_same_surface(d.z, d2, map_.settings.radius)) visit(i, place, d2);
-            }
-        }
+        GridReader{map_, map_.settings.radius}.visit_photons(grid, local, radius, visit);
     }
 
   private:
-    static constexpr SurfaceGrid no_grid{};
+    static constexpr SurfaceGrid empty_grid{};
     uint neighbours;
     bool has_coverage;
     const PhotonMap& map_;

@@ -17,41 +17,12 @@ struct BakeSettings {
     bool direct_in_photons = false;  // direct light: from photons as in the paper, or exact by shadow rays
 };
 
-/// References to photons, sorted by map and cell. All record arrays have one entry per reference.
-/// Flux is for intensity 1 of the photon's light (lm per cd, per lx or per cd/m2), times flux_scale in the record.
-struct PhotonMap {
-    uint64_t scene_hash = 0;
-    BakeSettings settings;  // with the radius that was used
-    uint64_t stored_photons = 0;
-    float flux_scale = 1;              // record flux = flux * flux_scale, keeps RGB9E5 in range
-    std::vector<uint64_t> emitted;     // photons emitted per light
-    std::vector<uint> triangle_maps;   // 2 per triangle: map or cut of the front side, of the back side, or no_map
-    SparseArray caustic_sides;         // when there are caustics, 2 per triangle: their map or cut + 1, or 0
-    std::vector<SurfaceGrid> grids;    // per map; those of caustics come last and have no lattice
-    std::vector<Cut> cuts;             // each before those it leads to; those of caustics come last
-    uint caustic_grids = 0;            // how many grids those are; their photons (path_caustic) are in no other map
-    uint caustic_cuts = 0;             // how many cuts
-    std::vector<uint> cell_starts;     // cells of all maps + 1
-    std::vector<PhotonPlace> places;   // 8 bytes per reference
-    std::vector<uint> fluxes;          // RGB9E5 per reference
-    std::vector<uint16_t> directions;  // octahedral direction the photon came from; empty without glossy surfaces
-
-    std::vector<uint> coverage;  // per node of the lattices of all maps, see unpack_coverage()
-    std::vector<uint>
-        visible_lamps;       // which lamps the nodes see, see visibility_words(); empty when photons hold all light
-    SparseArray irradiance;  // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
-    float irradiance_scale = 1;
-    std::vector<uint> smooth_caustics;     // a bit per node: its irradiance holds caustics; empty without caustics, and
-                                           // when photons hold all light
-    std::vector<ShadowMask> shadow_masks;  // in the order of cells and lamps; empty when photons hold all light
-
-    /// All arrays together.
-    uint64_t bytes() const {
-        const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
-        return size(triangle_maps, grids, cuts, cell_starts, places, fluxes, directions, coverage, visible_lamps,
-                    smooth_caustics, shadow_masks) +
-               caustic_sides.bytes() + irradiance.bytes();
-    }
+/// The grids of the surfaces of a scene, and which of them each side of a triangle lies in. Where a map, or its number,
+/// is spoken of, it is one of these grids.
+struct SurfaceGrids {
+    std::vector<uint> triangle_maps;  // 2 per triangle: map or cut of the front side, of the back side, or no_map
+    std::vector<SurfaceGrid> grids;   // per map
+    std::vector<Cut> cuts;            // each before those it leads to
 
     /// Calls visit(map) for every map in which points of a surface lie whose map is `index`: itself, or those behind
     /// its cuts.
@@ -69,10 +40,50 @@ struct PhotonMap {
         while (is_cut(index)) index = behind_cut(cuts[index & ~cut_bit], position);
         return index;
     }
+};
+
+/// References to photons, sorted by grid and cell: those of cell c are entries cell_starts[c] .. cell_starts[c + 1] - 1
+/// of the record arrays. Flux is for intensity 1 of the photon's light: lm per cd, per lx or per cd/m2.
+struct PhotonRecords {
+    std::vector<uint> cell_starts;     // cells of all grids + 1
+    std::vector<PhotonPlace> places;   // 8 bytes per reference
+    std::vector<uint> fluxes;          // RGB9E5 per reference
+    std::vector<uint16_t> directions;  // octahedral direction the photon came from; empty without glossy surfaces
+    float flux_scale = 1;              // record flux = flux * flux_scale, keeps RGB9E5 in range
+
+    bool has_directions() const { return !directions.empty(); }
+};
+
+/// The photon map of a scene: grids, those of caustics last and without lattices, the photons in their cells, and what
+/// the nodes of the lattices keep.
+struct PhotonMap : SurfaceGrids, PhotonRecords {
+    uint64_t scene_hash = 0;
+    BakeSettings settings;  // with the radius that was used
+    uint64_t stored_photons = 0;
+    std::vector<uint64_t> emitted;  // photons emitted per light
+    SparseArray caustic_sides;      // when there are caustics, 2 per triangle: their map or cut + 1, or 0
+    uint caustic_grids = 0;         // how many of the grids; their photons (path_caustic) are in no other map
+    uint caustic_cuts = 0;          // how many of the cuts, the last ones
+
+    std::vector<uint> coverage;       // per node of the lattices of all maps, see unpack_coverage()
+    std::vector<uint> visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all
+                                      // light
+    SparseArray irradiance;           // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
+    float irradiance_scale = 1;
+    std::vector<uint> smooth_caustics;     // a bit per node: its irradiance holds caustics; empty without caustics, and
+                                           // when photons hold all light
+    std::vector<ShadowMask> shadow_masks;  // in the order of cells and lamps; empty when photons hold all light
+
+    /// All arrays together.
+    uint64_t bytes() const {
+        const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
+        return size(triangle_maps, grids, cuts, cell_starts, places, fluxes, directions, coverage, visible_lamps,
+                    smooth_caustics, shadow_masks) +
+               caustic_sides.bytes() + irradiance.bytes();
+    }
 
     /// The map of caustics of a side of a triangle, 2 per triangle, or no_map; only where there are caustics.
     uint caustic_map_of(size_t side) const { return caustic_sides[side] - 1u; }
-    bool has_directions() const { return !directions.empty(); }
     bool holds_caustics(size_t node) const {
         return !smooth_caustics.empty() && ((smooth_caustics[node / 32] >> (node % 32)) & 1u);
     }

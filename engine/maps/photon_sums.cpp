@@ -19,20 +19,17 @@ int cell_at(float metres, float cell_size, uint count) {
 
 }  // namespace
 
-PhotonSums::PhotonSums(const PhotonMap& map, const SurfaceGrid& grid)
-    : grid_(grid),
-      starts_(map.cell_starts.data() + grid.first_cell),
-      first_(starts_[0]),
-      max_radius_(map.settings.radius) {
+PhotonSums::PhotonSums(const PhotonRecords& records, const SurfaceGrid& grid, float max_radius)
+    : grid_(grid), starts_(records.cell_starts.data() + grid.first_cell), first_(starts_[0]), max_radius_(max_radius) {
     const size_t count = starts_[grid.columns * grid.rows] - first_;
     for (std::vector<float>* places : {&u_, &v_, &h_}) places->resize(count);
     fluxes_.resize(count);
     lamps_.resize(count);
     for (size_t i = 0; i < count; ++i) {
-        const PhotonPlace place = map.places[first_ + i];
+        const PhotonPlace place = records.places[first_ + i];
         const vec3 local = place_in_grid(place, grid);
         u_[i] = local.x, v_[i] = local.y, h_[i] = local.z;
-        fluxes_[i] = vec4(unpack_rgb9e5(map.fluxes[first_ + i]), 0);
+        fluxes_[i] = vec4(unpack_rgb9e5(records.fluxes[first_ + i]), 0);
         lamps_[i] = light_of(place);
     }
 }

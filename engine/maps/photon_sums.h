@@ -13,7 +13,8 @@ class PhotonSums {
     /// Partial sums of a lamp: photons of one lamp follow each other, and each addition would wait for the one before.
     static constexpr size_t sums_per_lamp = 4;
 
-    PhotonSums(const PhotonMap& map, const SurfaceGrid& grid);
+    /// Unpacks the photons of a grid; `max_radius`: the largest search radius of the map, m.
+    PhotonSums(const PhotonRecords& records, const SurfaceGrid& grid, float max_radius);
 
     /// Adds the flux of the photons within `radius` m of a point (u, v, h of the grid), weighted by kernel_shape(),
     /// to the sums of each lamp; record flux, that is lm times the map's flux scale. The fourth component is unused.

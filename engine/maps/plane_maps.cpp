@@ -21,12 +21,12 @@ bool is_matte(const Material& m) {
 
 }  // namespace
 
-PlaneMaps::PlaneMaps(const Scene& scene, const PhotonMap& map)
-    : plane_(map.grids.size(), 1), matte_(map.grids.size(), 1), heights_(map.grids.size(), -1e30f) {
-    std::vector<float> lowest(map.grids.size(), 1e30f);
-    for (size_t side = 0; side < map.triangle_maps.size(); ++side) {
-        map.for_each_map(map.triangle_maps[side], [&](uint m) {
-            const SurfaceGrid& grid = map.grids[m];
+PlaneMaps::PlaneMaps(const Scene& scene, const SurfaceGrids& surfaces)
+    : plane_(surfaces.grids.size(), 1), matte_(surfaces.grids.size(), 1), heights_(surfaces.grids.size(), -1e30f) {
+    std::vector<float> lowest(surfaces.grids.size(), 1e30f);
+    for (size_t side = 0; side < surfaces.triangle_maps.size(); ++side) {
+        surfaces.for_each_map(surfaces.triangle_maps[side], [&](uint m) {
+            const SurfaceGrid& grid = surfaces.grids[m];
             if (matte_[m] && !is_matte(scene.material_of(uint(side / 2)))) matte_[m] = 0;
             for (int c = 0; c < 3; ++c) {
                 const uint vertex = scene.triangles[side / 2][c];
@@ -36,8 +36,8 @@ PlaneMaps::PlaneMaps(const Scene& scene, const PhotonMap& map)
             }
         });
     }
-    for (size_t m = 0; m < map.grids.size(); ++m) {
-        const vec2 step = map.grids[m].lattice.step;
+    for (size_t m = 0; m < surfaces.grids.size(); ++m) {
+        const vec2 step = surfaces.grids[m].lattice.step;
         plane_[m] = heights_[m] - lowest[m] <= 0.02f * std::max(step.x, step.y);
     }
 }

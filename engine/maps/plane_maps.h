@@ -9,7 +9,8 @@ namespace lw {
 
 class PlaneMaps {
   public:
-    PlaneMaps(const Scene& scene, const PhotonMap& map);
+    /// The grids have their lattices.
+    PlaneMaps(const Scene& scene, const SurfaceGrids& surfaces);
 
     /// True when all triangles of map m lie in one plane, to 2 % of the step of its lattice.
     bool is_plane(size_t m) const { return plane_[m] != 0; }

@@ -21,12 +21,18 @@ struct CornerBits {
 
 class MaskRays {
   public:
-    MaskRays(const Scene& scene, const RayCaster& caster, const PhotonMap& map)
-        : scene_(scene), caster_(caster), map_(map), emitters_(scene), planes_(scene, map) {}
+    MaskRays(const Scene& scene, const RayCaster& caster, const Lattice& lattice,
+             const std::vector<uint>& visible_lamps)
+        : scene_(scene),
+          caster_(caster),
+          grids_(lattice.surfaces.grids),
+          visible_lamps_(visible_lamps),
+          emitters_(scene),
+          planes_(scene, lattice.surfaces) {}
 
     std::vector<ShadowMask> masks_of(uint m) const {
         std::vector<ShadowMask> masks;
-        const SurfaceLattice& lattice = map_.grids[m].lattice;
+        const SurfaceLattice& lattice = grids_[m].lattice;
         if (!planes_.is_plane(m)) return masks;
         for (uint y = 0; y + 1 < lattice.rows; ++y)
             for (uint x = 0; x + 1 < lattice.columns; ++x)
@@ -41,7 +47,7 @@ class MaskRays {
         const uint words = visibility_words(uint(scene_.lights.size()));
         CornerBits bits;
         for (uint corner : {cell, cell + 1, cell + lattice.columns, cell + lattice.columns + 1}) {
-            const uint node = map_.visible_lamps[corner * words + visibility_word(lamp)] >> visibility_shift(lamp);
+            const uint node = visible_lamps_[corner * words + visibility_word(lamp)] >> visibility_shift(lamp);
             bits.around |= node & (some_visible | some_hidden);
             bits.own |= (node >> own_shift) & (some_visible | some_hidden);
         }
@@ -50,7 +56,7 @@ class MaskRays {
 
     /// Light of a lamp that reaches texel (i, j) of a cell.
     vec3 look(uint m, vec2 cell, uint lamp, uint i, uint j) const {
-        const SurfaceGrid& grid = map_.grids[m];
+        const SurfaceGrid& grid = grids_[m];
         const vec2 texel = (vec2(float(i), float(j)) + 0.5f) / float(shadow_mask_side);
         const vec3 position = point_on_lattice(grid, cell + texel, planes_.height(m));
         const auto in = emitters_.arrive(lamp, position, 0.5f, 0.5f);
@@ -59,7 +65,7 @@ class MaskRays {
     }
 
     std::optional<ShadowMask> find_mask(uint m, uint x, uint y, uint lamp) const {
-        const SurfaceLattice& lattice = map_.grids[m].lattice;
+        const SurfaceLattice& lattice = grids_[m].lattice;
         const uint cell = lattice.first_node + y * lattice.columns + x;
         const CornerBits bits = corner_bits(lattice, cell, lamp);
         if (bits.around != (some_visible | some_hidden)) return std::nullopt;
@@ -95,18 +101,20 @@ class MaskRays {
 
     const Scene& scene_;
     const RayCaster& caster_;
-    const PhotonMap& map_;
+    const std::vector<SurfaceGrid>& grids_;
+    const std::vector<uint>& visible_lamps_;
     Emitters emitters_;
     PlaneMaps planes_;
 };
 
 }  // namespace
 
-std::vector<ShadowMask> find_shadow_masks(const Scene& scene, const RayCaster& caster, const PhotonMap& map) {
-    const MaskRays rays(scene, caster, map);
-    std::vector<std::vector<ShadowMask>> of_maps(map.grids.size());
-    Progress progress("shadow masks", map.grids.size());
-    parallel_for(map.grids.size(), [&](size_t m) {
+std::vector<ShadowMask> find_shadow_masks(const Scene& scene, const RayCaster& caster, const Lattice& lattice,
+                                          const std::vector<uint>& visible_lamps) {
+    const MaskRays rays(scene, caster, lattice, visible_lamps);
+    std::vector<std::vector<ShadowMask>> of_maps(lattice.surfaces.grids.size());
+    Progress progress("shadow masks", lattice.surfaces.grids.size());
+    parallel_for(lattice.surfaces.grids.size(), [&](size_t m) {
         of_maps[m] = rays.masks_of(uint(m));
         progress.step(1);
     });

@@ -2,13 +2,15 @@
 #pragma once
 #include <vector>
 
-#include "maps/photon_map.h"
+#include "maps/lattice.h"
 #include "trace/ray_caster.h"
 
 namespace lw {
 
 /// A mask of each point, spot or directional lamp in each cell of a plane map around which the nodes disagree
-/// (map.visible_lamps), in the order of cells and lamps. None where what stands between tints the light unevenly.
-std::vector<ShadowMask> find_shadow_masks(const Scene& scene, const RayCaster& caster, const PhotonMap& map);
+/// (`visible_lamps`, of find_visibility()), in the order of cells and lamps. None where what stands between tints the
+/// light unevenly.
+std::vector<ShadowMask> find_shadow_masks(const Scene& scene, const RayCaster& caster, const Lattice& lattice,
+                                          const std::vector<uint>& visible_lamps);
 
 }  // namespace lw

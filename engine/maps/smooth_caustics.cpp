@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "maps/map_reader.h"
+#include "maps/grid_reader.h"
 #include "maps/packing.h"
 #include "scene/surface.h"
 #include "shaders/color.h"
@@ -14,23 +14,30 @@ namespace {
 constexpr float max_record = 32768;  // RGB9E5 goes to 65408
 constexpr float min_steps = 1.5f;    // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
 
-/// The text of shaders/caustics.glsl at lattice nodes, lamp by lamp.
+/// What shaders/caustics.glsl gathers, at lattice nodes, lamp by lamp.
 class CausticNodes {
   public:
-    CausticNodes(const Scene& scene, const PhotonMap& map, const std::vector<NodePoint>& nodes)
-        : map_(map), surfaces_(scene), maps_(map), nodes_(nodes), lamps_(uint(scene.lights.size())) {}
+    CausticNodes(const Scene& scene, const Lattice& lattice, const PhotonGrids& caustics, float irradiance_scale)
+        : surfaces_(scene),
+          lattice_(lattice),
+          caustics_(caustics),
+          reader_{caustics.records, lattice.radius},
+          irradiance_scale_(irradiance_scale),
+          lamps_(uint(scene.lights.size())) {}
 
-    /// Adds the caustics of a node of map m to the records; false, and nothing added, where they are too sharp for it.
+    /// Adds the caustics of a node of grid m to the records; false, and nothing added, where they are too sharp for it.
     bool add(uint m, uint node, std::vector<uint>& records) const {
-        if (!nodes_[node].exists()) return false;
-        const Surface s = surfaces_.surface_at(nodes_[node].triangle, nodes_[node].barycentrics);
-        const bool front = dot(s.geometric_normal, map_.grids[m].normal) >= 0;
-        const uint own = maps_.map_at(maps_.caustic_map_of(nodes_[node].triangle, front), s.position);
+        const NodePoint& point = lattice_.nodes[node];
+        if (!point.exists()) return false;
+        const Surface s = surfaces_.surface_at(point.triangle, point.barycentrics);
+        const bool front = dot(s.geometric_normal, lattice_.surfaces.grids[m].normal) >= 0;
+        const uint own = caustics_.surfaces.map_at(
+            caustics_.surfaces.triangle_maps[2 * size_t(point.triangle) + (front ? 0 : 1)], s.position);
         if (own == no_map) return true;
-        const SurfaceGrid& grid = map_.grids[own];
-        const SurfaceLattice& lattice = map_.grids[m].lattice;
+        const SurfaceGrid& grid = caustics_.surfaces.grids[own];
+        const SurfaceLattice& lattice = lattice_.surfaces.grids[m].lattice;
         const vec3 local = position_in_grid(grid, s.position);
-        const float radius = maps_.caustic_radius(grid, local);
+        const float radius = reader_.caustic_radius(grid, local);
         const std::vector<vec3> light = light_at_node(m, node, grid, local, radius);
         if (radius < min_steps * std::max(lattice.step.x, lattice.step.y) && has_any(light)) return false;
         for (uint lamp = 0; lamp < lamps_; ++lamp)
@@ -42,7 +49,7 @@ class CausticNodes {
     }
 
   private:
-    size_t record(uint lamp, uint node) const { return size_t(lamp) * nodes_.size() + node; }
+    size_t record(uint lamp, uint node) const { return size_t(lamp) * lattice_.nodes.size() + node; }
 
     bool has_any(const std::vector<vec3>& light) const {
         return std::any_of(light.begin(), light.end(), [&](const vec3& e) { return largest(e) > 0; });
@@ -52,37 +59,38 @@ class CausticNodes {
     std::vector<vec3> light_at_node(uint m, uint node, const SurfaceGrid& grid, vec3 local, float radius) const {
         std::vector<vec3> light(lamps_, vec3(0));
         const float r2 = radius * radius, wide = std::min(4 * radius / grid.radius, 1.0f);
-        const float covered = unpack_coverage(map_.coverage[node], radius / map_.grids[m].radius);
-        const float share = kernel_peak(r2) * (1 / map_.flux_scale) * map_.irradiance_scale /
+        const float covered = unpack_coverage(lattice_.coverage[node], radius / lattice_.surfaces.grids[m].radius);
+        const float share = kernel_peak(r2) * (1 / caustics_.records.flux_scale) * irradiance_scale_ /
                             (1 + wide * (std::max(covered, min_coverage) - 1));
-        maps_.visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
-            light[light_of(place)] += unpack_rgb9e5(map_.fluxes[i]) * (share * kernel_shape(d2 / r2));
+        reader_.visit_photons(grid, local, radius, [&](uint i, PhotonPlace place, float d2) {
+            light[light_of(place)] += unpack_rgb9e5(caustics_.records.fluxes[i]) * (share * kernel_shape(d2 / r2));
         });
         return light;
     }
 
-    const PhotonMap& map_;
     SurfaceReader surfaces_;
-    MapReader maps_;
-    const std::vector<NodePoint>& nodes_;
+    const Lattice& lattice_;
+    const PhotonGrids& caustics_;
+    GridReader reader_;
+    float irradiance_scale_;
     uint lamps_;
 };
 
 }  // namespace
 
-std::vector<uint> add_smooth_caustics(const Scene& scene, const std::vector<NodePoint>& nodes, const PhotonMap& map,
-                                      std::vector<uint>& irradiance) {
-    const CausticNodes caustics(scene, map, nodes);
-    std::vector<char> smooth(nodes.size(), 0);
-    parallel_for(map.grids.size() - map.caustic_grids, [&](size_t m) {
-        const SurfaceLattice& lattice = map.grids[m].lattice;
-        for (uint n = lattice.first_node; n < lattice.first_node + lattice.columns * lattice.rows; ++n)
-            smooth[n] = caustics.add(uint(m), n, irradiance);
+SmoothCaustics add_smooth_caustics(const Scene& scene, const Lattice& lattice, const PhotonGrids& caustics,
+                                   NodeIrradiance irradiance) {
+    const CausticNodes caustic_nodes(scene, lattice, caustics, irradiance.scale);
+    std::vector<char> smooth(lattice.nodes.size(), 0);
+    parallel_for(lattice.surfaces.grids.size(), [&](size_t m) {
+        const SurfaceLattice& nodes = lattice.surfaces.grids[m].lattice;
+        for (uint n = nodes.first_node; n < nodes.first_node + nodes.columns * nodes.rows; ++n)
+            smooth[n] = caustic_nodes.add(uint(m), n, irradiance.records);
     });
-    std::vector<uint> marks((nodes.size() + 31) / 32, 0);
-    for (size_t n = 0; n < nodes.size(); ++n)
+    std::vector<uint> marks((smooth.size() + 31) / 32, 0);
+    for (size_t n = 0; n < smooth.size(); ++n)
         if (smooth[n]) marks[n / 32] |= 1u << (n % 32);
-    return marks;
+    return {std::move(irradiance), std::move(marks)};
 }
 
 }  // namespace lw

@@ -60,20 +60,20 @@ void spread(const SurfaceLattice& lattice, uint words, const std::vector<uint>& 
 
 }  // namespace
 
-std::vector<uint> find_visibility(const Scene& scene, const RayCaster& caster, const PhotonMap& map,
-                                  const std::vector<NodePoint>& nodes) {
+std::vector<uint> find_visibility(const Scene& scene, const RayCaster& caster, const Lattice& all) {
+    const std::vector<NodePoint>& nodes = all.nodes;
     const auto lamps = uint(scene.lights.size()), words = visibility_words(lamps);
     const LampRays rays(scene, caster);
     const SurfaceReader surfaces(scene);
     std::vector<uint> own(nodes.size() * words, 0), joined(nodes.size() * words, 0);
     Progress progress("lamp visibility", nodes.size());
-    parallel_for(map.grids.size(), [&](size_t m) {
-        const SurfaceLattice& lattice = map.grids[m].lattice;
+    parallel_for(all.surfaces.grids.size(), [&](size_t m) {
+        const SurfaceLattice& lattice = all.surfaces.grids[m].lattice;
         const uint end = lattice.first_node + lattice.columns * lattice.rows;
         for (uint n = lattice.first_node; n < end; ++n) {
             if (!nodes[n].exists()) continue;
             const Surface s = surfaces.surface_at(nodes[n].triangle, nodes[n].barycentrics);
-            const float side = dot(s.geometric_normal, map.grids[m].normal) < 0 ? -1.0f : 1.0f;
+            const float side = dot(s.geometric_normal, all.surfaces.grids[m].normal) < 0 ? -1.0f : 1.0f;
             Rng rng(1, 1, n);
             for (uint lamp = 0; lamp < lamps; ++lamp)
                 own[n * words + visibility_word(lamp)] |= rays.look(lamp, {s.position, s.geometric_normal * side}, rng)

@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include "base/parallel.h"
-#include "maps/cuts.h"
 #include "scene/triangle.h"
 #include "trace/box_search.h"
 

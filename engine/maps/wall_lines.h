@@ -19,6 +19,10 @@ struct WalledPatch {
     std::vector<WallLine> lines;  // the straight ones first, then chords, each beginning where the one before ends
 };
 
+/// How far above a surface the walls that stand on it are looked for, m; thinner things lie on it. Light may pass
+/// below.
+inline float height_of_cuts(float radius) { return 0.03f * radius; }
+
 /// How far a chord may be from the round wall it stands for, m.
 inline float width_of_chords(float radius) { return 0.02f * radius; }
 

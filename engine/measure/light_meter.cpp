@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "maps/coverage.h"
+#include "maps/buried.h"
 #include "measure/gathering.h"
 #include "measure/placing.h"
 #include "shaders/color.h"

@@ -74,7 +74,7 @@ double error_at(const Sheets& sheets, const PhotonSums& sums, vec3 local, float 
 
 TEST(PhotonSums, AreThoseOfAllRecordsOneByOne) {
     const Sheets sheets(30'000);
-    const PhotonSums sums(sheets.map, sheets.map.grids[0]);
+    const PhotonSums sums(sheets.map, sheets.map.grids[0], sheets.map.settings.radius);
     Rng rng(1, 2, 1);
     for (int i = 0; i < 200; ++i) {
         const vec3 local(3 * rng.next() - 0.5f, 5 * rng.next() - 0.5f, 0.15f * rng.next() - 0.02f);
@@ -85,7 +85,7 @@ TEST(PhotonSums, AreThoseOfAllRecordsOneByOne) {
 
 TEST(PhotonSums, AreExactWhereThousandsLieInOneRowOfCells) {
     const Sheets sheets(60'000);
-    const PhotonSums sums(sheets.map, sheets.map.grids[0]);
+    const PhotonSums sums(sheets.map, sheets.map.grids[0], sheets.map.settings.radius);
     const vec3 crowd = vec3(0.72f, 1.02f, 0) - vec3(dot(sheets.map.grids[0].origin, sheets.map.grids[0].u_axis),
                                                     dot(sheets.map.grids[0].origin, sheets.map.grids[0].v_axis), 0);
     const std::array<glm::dvec3, lamps> expected = sheets.sum_all(crowd, 0.1f);
@@ -95,7 +95,7 @@ TEST(PhotonSums, AreExactWhereThousandsLieInOneRowOfCells) {
 
 TEST(PhotonSums, AreAddedToWhatIsThere) {
     const Sheets sheets(3'000);
-    const PhotonSums sums(sheets.map, sheets.map.grids[0]);
+    const PhotonSums sums(sheets.map, sheets.map.grids[0], sheets.map.settings.radius);
     std::vector<vec4> once(PhotonSums::sums_per_lamp * lamps, vec4(0)), twice = once;
     sums.add(vec3(1, 2, 0), 0.3f, once);
     for (int i = 0; i < 2; ++i) sums.add(vec3(1, 2, 0), 0.3f, twice);
@@ -109,7 +109,7 @@ TEST(PhotonSums, AreAddedToWhatIsThere) {
 
 TEST(PhotonSums, AreNothingFarFromAllPhotons) {
     const Sheets sheets(3'000);
-    const PhotonSums sums(sheets.map, sheets.map.grids[0]);
+    const PhotonSums sums(sheets.map, sheets.map.grids[0], sheets.map.settings.radius);
     for (vec3 local : {vec3(-3, 1, 0), vec3(1, 9, 0), vec3(1, 2, 3)}) {
         std::vector<vec4> parts(PhotonSums::sums_per_lamp * lamps, vec4(0));
         sums.add(local, 0.5f, parts);

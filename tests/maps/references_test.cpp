@@ -4,11 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "benchmark/rooms.h"
 #include "maps/build.h"
-#include "maps/cuts.h"
 #include "photons/shoot.h"
 
 namespace lw {
@@ -16,31 +14,19 @@ namespace {
 
 /// A furnished room with patches of one triangle, shared ones, and cut ones.
 struct Room {
-    Room()
-        : scene(make_room({10'000, 2})),
-          caster(scene),
-          photons(shoot_photons(scene, caster, {.photons = 50'000, .direct_in_photons = true})) {
-        cut_patches(scene, radius, patches, shapes);
-        radii = patch_radii(shapes, radius, 0.5f * radius);
-        neighbours.emplace(shapes, radii, 60.0f, radius);
-        references = find_references(input());
-    }
-    ReferenceInput input() const { return {scene, photons.records, patches, shapes, radii, 60, *neighbours, caster}; }
+    ReferenceInput input() const { return {scene, caster, partition, photons.records}; }
 
-    const Scene scene;
-    const RayCaster caster;
-    const Photons photons;
+    const Scene scene = make_room({10'000, 2});
+    const RayCaster caster{scene};
+    const Photons photons = shoot_photons(scene, caster, {.photons = 50'000, .direct_in_photons = true});
     const float radius = automatic_radius(scene, 50'000);
-    Patches patches = group_triangles(scene, 6 * radius);
-    std::vector<PatchShape> shapes = shapes_of(scene, patches);
-    std::vector<float> radii;
-    std::optional<Neighbours> neighbours;
-    References references;
+    const Partition partition = partition_surfaces(scene, {.radius = radius});
+    const References references = find_references(input());
 };
 
 TEST(References, AreAsManyAsThoseOfEachPhotonByItself) {
     const Room room;
-    ASSERT_GT(room.patches.cuts.size(), 0u);
+    ASSERT_GT(room.partition.patches.cuts.size(), 0u);
     const double each = sample_references(room.input(), room.photons.records.size());
     EXPECT_GT(each, 1.1);
     EXPECT_DOUBLE_EQ(double(room.references.photons.size()) / double(room.photons.records.size()), each);
@@ -49,8 +35,8 @@ TEST(References, AreAsManyAsThoseOfEachPhotonByItself) {
 TEST(References, HoldEveryPhotonAndNoneTwiceInAMap) {
     const Room room;
     std::vector<uint> times(room.photons.records.size(), 0);
-    ASSERT_EQ(room.references.starts.size(), room.patches.count + 1);
-    for (size_t p = 0; p < room.patches.count; ++p) {
+    ASSERT_EQ(room.references.starts.size(), room.partition.patches.count + 1);
+    for (size_t p = 0; p < room.partition.patches.count; ++p) {
         std::vector<uint> of_map(room.references.photons.begin() + int64_t(room.references.starts[p]),
                                  room.references.photons.begin() + int64_t(room.references.starts[p + 1]));
         std::sort(of_map.begin(), of_map.end());
@@ -60,14 +46,22 @@ TEST(References, HoldEveryPhotonAndNoneTwiceInAMap) {
     EXPECT_TRUE(std::all_of(times.begin(), times.end(), [](uint count) { return count > 0; }));
 }
 
+/// Small patches get so small a radius that references per photon are few, and none a larger one.
+TEST(References, AreFewOncePatchesAreTightened) {
+    const Room room;
+    const Partition tight = limit_references(room.scene, room.caster, room.photons.records, room.partition);
+    EXPECT_LT(sample_references({room.scene, room.caster, tight, room.photons.records}, 20'000), 2.3);
+    for (size_t p = 0; p < tight.radii.size(); ++p) ASSERT_LE(tight.radii[p], room.partition.radii[p]) << p;
+}
+
 TEST(References, AreWithinTheRadiusOfTheirMap) {
     const Room room;
-    for (size_t p = 0; p < room.patches.count; ++p)
+    for (size_t p = 0; p < room.partition.patches.count; ++p)
         for (uint64_t i = room.references.starts[p]; i < room.references.starts[p + 1]; ++i) {
-            const PatchShape& shape = room.shapes[p];
+            const PatchShape& shape = room.partition.shapes[p];
             const vec3 local = shape.to_local(room.photons.records[room.references.photons[i]].position);
             const vec3 outside = max(max(shape.low - local, local - shape.high), vec3(0));
-            EXPECT_LE(length(outside), 1.0001f * room.radii[p]) << p;
+            EXPECT_LE(length(outside), 1.0001f * room.partition.radii[p]) << p;
         }
 }
 
