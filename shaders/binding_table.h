@@ -7,7 +7,7 @@
 
 // The scene and its map, set 0 (gather/resident). Corners are three per triangle, without indices.
 LW_BINDING(scene, corners, texels, 1, all_stages)       // RGBA32F twice: position and u, normal and v of uv0
-LW_BINDING(scene, triangles, texels, 1, all_stages)     // RGBA32: map or cut of front and back, material, light or -1
+LW_BINDING(scene, triangles, texels, 1, all_stages)     // RGBA32: grid or cut of front and back, material, light or -1
 LW_BINDING(scene, uv1, texels, 1, all_stages)           // RG32F per corner
 LW_BINDING(scene, colors, texels, 1, all_stages)        // RGBA32F per corner
 LW_BINDING(scene, tangents, texels, 1, all_stages)      // RGBA32F per corner
@@ -24,7 +24,7 @@ LW_BINDING(scene, coverage, texels, 1, compute)             // R32 per node of t
 LW_BINDING(scene, cell_light, texels, 1, compute)           // RGBA32 per cell
 LW_BINDING(scene, cell_words, texels, 1, compute)           // R32
 LW_BINDING(scene, shadow_masks, texels, 1, compute)         // RGBA32
-LW_BINDING(scene, caustic_maps, texels, 1, compute)         // RG32 per triangle: map of the front, of the back
+LW_BINDING(scene, caustic_grids, texels, 1, compute)        // RG32 per triangle: grid or cut of the front, of the back
 LW_BINDING(scene, lamp_powers, texels, 1, compute)          // RGBA32F, LampPower
 LW_BINDING(scene, bvh_nodes, texels, 1, compute)        // RGBA32, BvhNode; empty where rays are traced by ray queries
 LW_BINDING(scene, bvh_triangles, texels, 1, compute)    // R32

@@ -1,20 +1,20 @@
 // Light that lamps send by mirrors and smooth glass alone, from grids of its own: gathered at
 // each point with a small bandwidth, so that it stays sharp; the cached mode finds smooth caustics in the light of its
-// cells. One text for C++ and GLSL; needs gather.glsl, the functions caustic_map_of, cell_word and the constants
+// cells. One text for C++ and GLSL; needs gather.glsl, the functions caustic_grid_of, cell_word and the constants
 // has_caustics, has_smooth_caustics, has_visible_lamps, light_count.
 
 /// The part of the caustics at a place that the light of its cell does not hold.
-float caustics_left(MapPlace at) LW_MEMBER {
-    if (!has_smooth_caustics || !has_visible_lamps || gather_mode != gather_mode_cached || at.map == no_map)
+float caustics_left(GridPlace at) LW_MEMBER {
+    if (!has_smooth_caustics || !has_visible_lamps || gather_mode != gather_mode_cached || at.index == no_grid)
         return 1.0f;
     return 1.0f - corners_set(cell_word(at.cell * cell_words(light_count, true)), at.f);
 }
 
 /// Adds the part `left` of the caustic light at a surface of `triangle` whose other light comes from the place `at`.
-void add_caustics(uint triangle, bool front, float left, MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading,
+void add_caustics(uint triangle, bool front, float left, GridPlace at, Surface s, vec3 n_geometric, vec3 n_shading,
                   vec3 to_view, LW_INOUT(Gathered) light) LW_MEMBER {
-    uint own = left > 0.0f ? map_at(caustic_map_of(triangle, front), s.position) : no_map;
-    if (own == no_map) return;
+    uint own = left > 0.0f ? behind_cuts(caustic_grid_of(triangle, front), s.position) : no_grid;
+    if (own == no_grid) return;
     SurfaceGrid grid = grid_at(own);
     vec3 local = position_in_grid(grid, s.position);
     float radius = caustic_radius(grid, local);

@@ -165,7 +165,7 @@ LampVisibility lamp_visibility(uint bits, uint mask, vec2 f, Surface s) LW_MEMBE
     bool behind = shows_points_behind(s);
     visible.by_rays = has_shadow_rays && (behind || (bits & (some_visible | some_hidden)) != some_visible);
     if (!has_shadow_rays && has_visible_lamps)
-        visible.passed = vec3(corners_set(seeing_corners(bits), f));  // on no map: of no lamp
+        visible.passed = vec3(corners_set(seeing_corners(bits), f));  // in no grid: of no lamp
     if (has_shadow_masks && !behind && (bits & has_shadow_mask) != 0u) {
         uvec4 points = shadow_mask(mask);
         visible.by_rays = has_shadow_rays && is_edge(points, f);
@@ -225,9 +225,9 @@ void add_lamp(uint i, LampVisibility visible, Surface s, vec3 n_geometric, vec3 
 }
 
 /// What the cell around a place knows of the lamps of a word; 0 when it knows nothing.
-uint lamp_bits(MapPlace at, uint word) LW_MEMBER {
+uint lamp_bits(GridPlace at, uint word) LW_MEMBER {
     bool has_marks = has_smooth_caustics || has_shadow_masks;
-    if (!has_visible_lamps || at.map == no_map) return 0u;
+    if (!has_visible_lamps || at.index == no_grid) return 0u;
     return cell_word(at.cell * cell_words(light_count, has_marks) + (has_marks ? 1u : 0u) + word);
 }
 
@@ -247,8 +247,8 @@ uint lamps_to_add(uint bits, uint pair, Surface s) LW_MEMBER {
 }
 
 /// The shadow mask of the first lamp of a word that has one.
-uint first_shadow_mask(MapPlace at, uint word) LW_MEMBER {
-    if (!has_shadow_masks || !has_visible_lamps || at.map == no_map) return 0u;
+uint first_shadow_mask(GridPlace at, uint word) LW_MEMBER {
+    if (!has_shadow_masks || !has_visible_lamps || at.index == no_grid) return 0u;
     uint mask = cell_word(at.cell * cell_words(light_count, true)) >> first_mask_shift;
     for (uint before = 0u; before < word; ++before)
         mask += bitCount(lamps_with(lamp_bits(at, before), has_shadow_mask));
@@ -256,13 +256,13 @@ uint first_shadow_mask(MapPlace at, uint word) LW_MEMBER {
 }
 
 /// What is known of the lamp whose bits begin at `shift` in its word.
-LampVisibility lamp_visibility_in_word(MapPlace at, uint bits, uint shift, uint first_mask, Surface s) LW_MEMBER {
+LampVisibility lamp_visibility_in_word(GridPlace at, uint bits, uint shift, uint first_mask, Surface s) LW_MEMBER {
     uint masks_before = uint(bitCount(lamps_with(bits & ((1u << shift) - 1u), has_shadow_mask)));
     return lamp_visibility(cell_lamp_bits(bits, shift), first_mask + masks_before, at.f, s);
 }
 
 /// Adds the direct light of one pair of lamps at a place.
-void add_direct(MapPlace at, uint pair, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LampPoints points,
+void add_direct(GridPlace at, uint pair, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view, LampPoints points,
                 LW_INOUT(Gathered) sum) LW_MEMBER {
     uint word = cell_lamp_word(pair * lamps_per_pair);
     uint bits = lamp_bits(at, word);

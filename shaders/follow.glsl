@@ -241,7 +241,7 @@ struct PathEnd {
 
 PathEnd end_nowhere() LW_MEMBER {
     PathEnd end;
-    end.at.triangle = no_map;
+    end.at.triangle = no_triangle;
     end.at.barycentrics = vec2(0.0f);
     end.at.eye = vec3(0.0f);
     end.at.weight = vec3(0.0f);
@@ -286,7 +286,7 @@ PathEnd follow(ViewRay ray, PathNumbers numbers, bool last) LW_MEMBER {
         if (!(largest(ray.weight) > 0.0f)) return end;
         vec2 barycentrics = vec2(0.0f);
         uint triangle = nearest_triangle(ray.origin, ray.direction, 2.0f * scene_size, barycentrics);
-        if (triangle == no_map) return end;
+        if (triangle == no_triangle) return end;
         Seen seen = see(triangle, barycentrics, ray.origin);
         seen.to_eye = -ray.direction;
         Surface s = seen.surface;
@@ -353,7 +353,7 @@ void add_followed(Seen seen, uint branch, uvec2 pixel, uint seed, LW_INOUT(Gathe
     for (uint depth = 0u; depth < max_lobes; ++depth) {
         light.radiance += end.glow;
         Followed at = end.at;
-        if (at.triangle == no_map) return;
+        if (at.triangle == no_triangle) return;
         following.depth = depth;
         Seen far = see_followed(at);
         Gathered shown = estimate_at(far);

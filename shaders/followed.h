@@ -27,7 +27,7 @@ LW_INLINE uint pixel_lists(uint lamps, bool follows) { return ray_pairs(lamps) +
 
 /// Where the path of a pixel ended. Photons and rays are gathered there.
 struct Followed {
-    uint triangle;  // or no_map: the path ended nowhere
+    uint triangle;  // or no_triangle: the path ended nowhere
     vec2 barycentrics;
     vec3 eye;     // the point from which the last ray of the path came, m
     vec3 weight;  // of the light gathered there, RGB

@@ -38,7 +38,6 @@ struct RayPixels {
 /// Number of triangles drawn as one instance. It is small, because a software rasterizer walks all vertices of an
 /// instance several times.
 LW_CONST uint cluster_triangles = 64u;
-LW_CONST uint no_triangle = 0xffffffffu;
 
 /// The present power of a lamp: its photons are multiplied by `weight`, the glow of its surface by `factor`. Two
 /// texels.

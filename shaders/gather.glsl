@@ -1,4 +1,4 @@
-// Photon density estimation on the 2D grid of one map (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
+// Photon density estimation on the 2D grid of one patch (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
 // Real-Time Walkthrough Rendering, 2012). One text for C++ and GLSL. The including scope provides the functions
 // photon_place, photon_flux, photon_direction, light_power, light_at, cell_light and the constants has_caustics,
 // gather_mode, neighbours, heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions,
@@ -149,7 +149,7 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
 
 /// The cached mode: blends the irradiance at the corners of the cell, which holds all lamps at their present powers.
 /// The BRDF is applied as for uniform light from all sides.
-Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
+Gathered gather_cached(GridPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
     uvec4 corners = cell_light(at.cell);
     vec3 low = mix(unpack_rgb9e5(corners.x), unpack_rgb9e5(corners.y), at.f.x);
     vec3 high = mix(unpack_rgb9e5(corners.z), unpack_rgb9e5(corners.w), at.f.x);
@@ -167,9 +167,9 @@ Gathered gather_cached(MapPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_
 }
 
 /// Radiance towards `to_view` and irradiance at surface `s`, from the photons around the place `at`; zero when that is
-/// on no map. n_geometric and n_shading are on the side of the viewer.
-Gathered gather_photons(MapPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
-    if (at.map == no_map) return no_light();
+/// in no grid. n_geometric and n_shading are on the side of the viewer.
+Gathered gather_photons(GridPlace at, Surface s, vec3 n_geometric, vec3 n_shading, vec3 to_view) LW_MEMBER {
+    if (at.index == no_grid) return no_light();
     if (gather_mode == gather_mode_cached) return gather_cached(at, s, n_shading, to_view);
     if (gather_mode == gather_mode_exact) return gather_exact(at.grid, at.local, s, n_geometric, n_shading, to_view);
     Gathered sum = gather_smooth(at.grid, at.local, s, n_geometric, n_shading, to_view);

@@ -1,5 +1,5 @@
-// The cells of a photon grid, and the bandwidths that follow from the photons counted in them. One text for C++ and GLSL.
-// The including scope provides the function cell_start and the constant neighbours. Needs photon_map.h.
+// The cells of a photon grid, and the bandwidths that follow from the photons counted in them. One text for C++ and
+// GLSL. The including scope provides the function cell_start and the constant neighbours. Needs photon_map.h.
 
 ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
     return ivec2(int(floor(local.x / grid.cell_size)), int(floor(local.y / grid.cell_size)));

@@ -35,7 +35,7 @@ Inspected inspect(Seen seen, float dot_reach, uint seed) LW_MEMBER {
     result.photons = 0.0f;
     result.relative_error = 0.0f;
     result.dot_lamp = 0.0f;
-    if (seen.at.map == no_map) return result;
+    if (seen.at.index == no_grid) return result;
     SurfaceGrid grid = seen.at.grid;
     vec3 local = seen.at.local;
     float radius = bandwidth_from_counts(grid, local);

@@ -15,31 +15,31 @@ uint cell_node(SurfaceLattice lattice, vec3 local, LW_INOUT(vec2) f) LW_MEMBER {
 }
 
 /// Where a point lies on its patch.
-struct MapPlace {
-    uint map;  // index of the grid, or no_map, when the other members mean nothing
+struct GridPlace {
+    uint index;  // of the grid, or no_grid, when the other members mean nothing
     SurfaceGrid grid;
     vec3 local;  // u, v, h in the frame of the grid, m
     uint cell;   // lower left node of the cell of the lattice
     vec2 f;      // place in the cell, 0 to 1
 };
 
-/// The grid of a point on a surface whose record is `map`: follows cuts until a grid, or no_map, is reached.
-uint map_at(uint map, vec3 position) LW_MEMBER {
-    while (is_cut(map)) map = behind_cut(cut_at(map & ~cut_bit), position);
-    return map;
+/// The grid of a point on a surface whose grid or cut is `index`; no_grid where it has none.
+uint behind_cuts(uint index, vec3 position) LW_MEMBER {
+    while (is_cut(index)) index = behind_cut(cut_at(index & ~cut_bit), position);
+    return index;
 }
 
-MapPlace place_on(uint map, vec3 position) LW_MEMBER {
-    MapPlace at;
-    at.map = map_at(map, position);
-    at.grid = grid_at(at.map == no_map ? 0u : at.map);  // any record that exists
+GridPlace place_on_grid(uint index, vec3 position) LW_MEMBER {
+    GridPlace at;
+    at.index = behind_cuts(index, position);
+    at.grid = grid_at(at.index == no_grid ? 0u : at.index);  // any record that exists
     at.local = position_in_grid(at.grid, position);
     at.cell = cell_node(at.grid.lattice, at.local, at.f);
     return at;
 }
 
 /// Coverage of a kernel of `radius` m around a place, interpolated between the nodes; at least min_coverage.
-float coverage_at(MapPlace at, float radius) LW_MEMBER {
+float coverage_at(GridPlace at, float radius) LW_MEMBER {
     float fraction = radius / at.grid.radius;
     uint node = at.cell;
     uint above = node + at.grid.lattice.columns;
@@ -51,11 +51,11 @@ float coverage_at(MapPlace at, float radius) LW_MEMBER {
 }
 
 /// The coverage to divide an estimate by; 1 when the map has no coverage.
-float covered_part(MapPlace at, float radius) LW_MEMBER { return has_coverage ? coverage_at(at, radius) : 1.0f; }
+float covered_part(GridPlace at, float radius) LW_MEMBER { return has_coverage ? coverage_at(at, radius) : 1.0f; }
 
 /// The same for a kernel of `radius` m on the grid of caustics of that surface. Kernels much smaller than the smallest
 /// for which coverage is known hardly reach a border, so theirs tends to 1.
-float caustic_coverage(MapPlace at, SurfaceGrid caustics, float radius) LW_MEMBER {
-    if (!has_coverage || at.map == no_map) return 1.0f;
+float caustic_coverage(GridPlace at, SurfaceGrid caustics, float radius) LW_MEMBER {
+    if (!has_coverage || at.index == no_grid) return 1.0f;
     return mix(1.0f, coverage_at(at, radius), min(4.0f * radius / caustics.radius, 1.0f));
 }

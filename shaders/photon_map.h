@@ -7,14 +7,14 @@
 namespace lw {
 #endif
 
-LW_CONST uint no_map = 0xffffffffu;
-LW_CONST uint path_direct = 0u;      // no bounce before this hit
-LW_CONST uint path_indirect = 1u;    // at least one diffuse or glossy bounce
-LW_CONST uint path_caustic = 2u;     // specular bounces only
-LW_CONST uint light_mask = 0x3fffu;  // low 14 bits of light_and_path
+LW_CONST uint no_grid = 0xffffffffu;  // in the place of the number of a grid or cut
+LW_CONST uint path_direct = 0u;       // no bounce before this hit
+LW_CONST uint path_indirect = 1u;     // at least one diffuse or glossy bounce
+LW_CONST uint path_caustic = 2u;      // specular bounces only
+LW_CONST uint light_mask = 0x3fffu;   // low 14 bits of light_and_path
 LW_CONST uint path_shift = 14u;
 
-/// The static lattice of a map, independent of its photons: node (i, j) is entry first_node + j * columns + i, at
+/// The static lattice of a patch, independent of its photons: node (i, j) is entry first_node + j * columns + i, at
 /// low + (i, j) * step in the u, v of its grid.
 struct SurfaceLattice {
     vec2 low;   // m
@@ -24,7 +24,7 @@ struct SurfaceLattice {
     uint first_node;
 };
 
-/// The 2D uniform grid of one map: a triangle, or a patch of small triangles of like orientation, seen from one side.
+/// The 2D uniform grid of one patch: a triangle, or small triangles of like orientation, seen from one side.
 /// Cell (i, j) is cell_starts[first_cell + j * columns + i], its end the next entry.
 struct SurfaceGrid {
     vec3 origin;      // corner of the grid; position = origin + u u_axis + v v_axis + h normal
@@ -37,12 +37,12 @@ struct SurfaceGrid {
     uint first_cell;
     vec3 quantum;    // metres per step of the 16-bit u, v, h of its records
     float h_origin;  // height of step 0 along the normal
-    float radius;    // largest search radius of this map, m
+    float radius;    // largest search radius in this grid, m
     SurfaceLattice lattice;
 };
 
 /// A plane across a surface, along which a wall stands. What lies on the side that the normal points to belongs to
-/// `front`, the rest to `back`: a map, another cut (cut_bit and its number), or no_map.
+/// `front`, the rest to `back`: a grid, another cut (cut_bit and its number), or no_grid.
 struct Cut {
     vec3 point;  // m
     uint front;
@@ -50,11 +50,11 @@ struct Cut {
     uint back;
 };
 
-/// Where the number of a map may stand and this bit is set, the other bits are the number of a cut.
+/// Where the number of a grid may stand and this bit is set, the other bits are the number of a cut.
 LW_CONST uint cut_bit = 0x80000000u;
-LW_INLINE bool is_cut(uint map) { return map != no_map && (map & cut_bit) != 0u; }
+LW_INLINE bool is_cut(uint index) { return index != no_grid && (index & cut_bit) != 0u; }
 
-/// The map, or the next cut, of a point of a surface that is cut.
+/// The grid, or the next cut, of a point of a surface that is cut.
 LW_INLINE uint behind_cut(Cut cut, vec3 position) {
     return dot(position - cut.point, cut.normal) > 0.0f ? cut.front : cut.back;
 }
@@ -63,7 +63,7 @@ LW_CONST uint surface_grid_texels = 7u;  // of 16 bytes
 LW_CONST uint cut_texels = 2u;           // of 16 bytes
 LW_CONST uint max_cuts_deep = 48u;       // one after the other
 
-/// Coverage of the kernels of radius R/4, R/2, 3R/4 and R of a map with largest radius R, one byte each.
+/// Coverage of the kernels of radius R/4, R/2, 3R/4 and R of a grid with largest radius R, one byte each.
 LW_CONST uint coverage_levels = 4u;
 LW_CONST float coverage_unit = 160.0f;  // the byte of coverage 1
 LW_CONST float min_coverage = 0.05f;
@@ -123,7 +123,7 @@ struct ShadowMask {
 };
 LW_CONST uint shadow_mask_side = 8u;
 
-/// Where a referenced photon lies in its map, and which light it came from (8 bytes).
+/// Where a referenced photon lies in its grid, and which light it came from (8 bytes).
 struct PhotonPlace {
     uint uv;                // 16 + 16 bits, steps of quantum.xy
     uint h_light_and_path;  // low 16: height step; high 16: light | path << 14
@@ -179,7 +179,7 @@ LW_INLINE bool on_same_surface(float height, float distance_squared, float max_r
     return excess * excess <= 0.75f * distance_squared;  // slope of a 60 degree crease
 }
 
-/// Coverage of the kernel whose radius is `fraction` of the map's, between the packed levels.
+/// Coverage of the kernel whose radius is `fraction` of the grid's, between the packed levels.
 LW_INLINE float unpack_coverage(uint bits, float fraction) {
     float at = clamp(fraction * float(coverage_levels), 1.0f, float(coverage_levels)) - 1.0f;
     uint below = min(uint(at), coverage_levels - 2u);

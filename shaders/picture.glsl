@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push { Frame frame; };
 layout(set = 0, binding = binding_lights, scalar) readonly buffer Lights { Light lights[]; };
 layout(set = 0, binding = binding_lamp_powers) uniform textureBuffer lamp_powers;
 layout(set = 0, binding = binding_emitters, scalar) readonly buffer Emitters { Emitter emitters[]; };
-layout(set = 0, binding = binding_caustic_maps) uniform utextureBuffer caustic_maps;
+layout(set = 0, binding = binding_caustic_grids) uniform utextureBuffer caustic_grids;
 layout(set = 0, binding = binding_grids) uniform utextureBuffer grids;
 layout(set = 0, binding = binding_cuts) uniform utextureBuffer cuts;
 layout(set = 0, binding = binding_cell_starts) uniform utextureBuffer cell_starts;
@@ -63,8 +63,8 @@ PhotonPlace photon_place(uint i) {
 uint photon_flux(uint i) { return flux_record(i).x; }
 uint photon_direction(uint i) { return direction_record(i).x; }
 
-SurfaceGrid grid_at(uint map) {
-    int first = int(map * surface_grid_texels);
+SurfaceGrid grid_at(uint index) {
+    int first = int(index * surface_grid_texels);
     uvec4 t[surface_grid_texels];
     for (int i = 0; i < int(surface_grid_texels); ++i) t[i] = texelFetch(grids, first + i);
     SurfaceGrid grid;
@@ -104,13 +104,13 @@ BvhNode bvh_node_at(uint i) {
 
 uint bvh_triangle_at(uint i) { return texelFetch(bvh_triangles, int(i)).x; }
 
-uint map_of(uint triangle, bool front) {
+uint grid_of(uint triangle, bool front) {
     uvec4 record = texelFetch(triangles, int(triangle));
     return front ? record.x : record.y;
 }
 
-uint caustic_map_of(uint triangle, bool front) {
-    uvec4 record = texelFetch(caustic_maps, int(triangle));
+uint caustic_grid_of(uint triangle, bool front) {
+    uvec4 record = texelFetch(caustic_grids, int(triangle));
     return front ? record.x : record.y;
 }
 
@@ -195,8 +195,8 @@ void follow_pixel(uint pixel) {
         ray = first_ray(seen, following.branch, numbers);
         if (following.branch == branch_through && is_looked_through(seen)) looked_at = followed_is_looked_at;
     } else {
-        if (before.triangle == no_map || (before.flags & followed_goes_on) == 0u) {
-            followed[pixel].triangle = no_map;
+        if (before.triangle == no_triangle || (before.flags & followed_goes_on) == 0u) {
+            followed[pixel].triangle = no_triangle;
             return;
         }
         ray = reflected_ray(see_followed(before), vec3(0.0f), lobe_numbers(numbers, 0u));
@@ -218,7 +218,7 @@ void list_for_light(uint pixel, Seen seen) {
 /// Photons or rays at the end of a path.
 void gather_followed(uint pixel) {
     Followed at = followed[pixel];
-    if (at.triangle == no_map) return;
+    if (at.triangle == no_triangle) return;
     Seen seen = see_followed(at);
     Gathered light = no_light();
     Following following = unpack_following(frame.following);

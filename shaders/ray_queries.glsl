@@ -2,7 +2,7 @@
 // geometry 1 may let light through (gpu/acceleration). bvh_triangle_at gives the triangles of geometry 0, then of
 // geometry 1.
 
-bool any_see_through() { return first_see_through != no_map; }
+bool any_see_through() { return first_see_through != no_triangle; }
 
 /// The scene's index of triangle `primitive` of a geometry.
 uint queried_triangle(int geometry, int primitive) {
@@ -28,13 +28,13 @@ vec3 shadow_ray(vec3 origin, vec3 direction, float far) {
     return ends ? vec3(0.0f) : light;
 }
 
-/// The nearest triangle along a ray, including holes and glass, or no_map. Sets the barycentrics of the hit.
+/// The nearest triangle along a ray, including holes and glass, or no_triangle. Sets the barycentrics of the hit.
 uint nearest_triangle(vec3 origin, vec3 direction, float far, inout vec2 barycentrics) {
     rayQueryEXT query;
     rayQueryInitializeEXT(query, acceleration, gl_RayFlagsOpaqueEXT, 0xffu, origin, 0.0f, direction, max(far, 0.0f));
     while (rayQueryProceedEXT(query)) {
     }
-    if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT) return no_map;
+    if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT) return no_triangle;
     barycentrics = rayQueryGetIntersectionBarycentricsEXT(query, true);
     return queried_triangle(rayQueryGetIntersectionGeometryIndexEXT(query, true),
                             rayQueryGetIntersectionPrimitiveIndexEXT(query, true));

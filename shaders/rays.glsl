@@ -30,7 +30,7 @@ struct Traversal {
 };
 
 /// Continues a traversal to the next triangle that the ray crosses. Returns its entry with the bvh_see_through bit, or
-/// no_map at the end.
+/// no_triangle at the end.
 uint next_crossed(vec3 origin, vec3 direction, vec3 inverse, float far, LW_INOUT(Traversal) at,
                   LW_INOUT(vec3) hit) LW_MEMBER {
     while (at.first < at.last || at.node < bvh_node_count) {
@@ -49,7 +49,7 @@ uint next_crossed(vec3 origin, vec3 direction, vec3 inverse, float far, LW_INOUT
         at.last = inside ? at.first + (n.leaf & 15u) : at.first;
         at.node = inside && n.leaf == 0u ? at.node + 1u : n.skip;
     }
-    return no_map;
+    return no_triangle;
 }
 
 /// 1 / direction, finite.
@@ -74,8 +74,8 @@ vec3 shadow_ray(vec3 origin, vec3 direction, float far) LW_MEMBER {
     vec3 hit = vec3(0.0f);
     vec3 light = vec3(1.0f);
     uint entry = next_crossed(origin, direction, inverse, far, at, hit);
-    if (!has_alpha && !has_transmission) return entry == no_map ? light : vec3(0.0f);
-    while (entry != no_map) {
+    if (!has_alpha && !has_transmission) return entry == no_triangle ? light : vec3(0.0f);
+    while (entry != no_triangle) {
         if ((entry & bvh_see_through) == 0u) return vec3(0.0f);
         light *= passed_by(entry & ~bvh_see_through, vec2(hit.x, hit.y), direction);
         if (max(light.x, max(light.y, light.z)) <= 0.0f) return vec3(0.0f);
@@ -84,14 +84,14 @@ vec3 shadow_ray(vec3 origin, vec3 direction, float far) LW_MEMBER {
     return light;
 }
 
-/// The nearest triangle along a ray, including holes and glass, or no_map. Sets the barycentrics of the hit.
+/// The nearest triangle along a ray, including holes and glass, or no_triangle. Sets the barycentrics of the hit.
 uint nearest_triangle(vec3 origin, vec3 direction, float far, LW_INOUT(vec2) barycentrics) LW_MEMBER {
     vec3 inverse = inverse_of(direction);
     Traversal at = start_traversal();
     vec3 hit = vec3(0.0f);
-    uint nearest = no_map;
+    uint nearest = no_triangle;
     uint entry = next_crossed(origin, direction, inverse, far, at, hit);
-    while (entry != no_map) {
+    while (entry != no_triangle) {
         nearest = entry & ~bvh_see_through;
         barycentrics = vec2(hit.x, hit.y);
         far = hit.z;

@@ -7,6 +7,8 @@
 namespace lw {
 #endif
 
+LW_CONST uint no_triangle = 0xffffffffu;  // in the place of the number of a triangle
+
 LW_CONST uint light_point = 0u;        // intensity in cd
 LW_CONST uint light_spot = 1u;         // intensity in cd inside the inner cone
 LW_CONST uint light_directional = 2u;  // intensity in lx on a plane facing the light

@@ -1,11 +1,11 @@
 // What a surface shows to an eye, and how photons and lamps add up to it. One text for C++ and GLSL; needs gather.glsl,
-// caustics.glsl, rays.glsl, direct.glsl, the functions map_of, lamp_factor and the constants has_caustics, has_direct.
+// caustics.glsl, rays.glsl, direct.glsl, the functions grid_of, lamp_factor and the constants has_caustics, has_direct.
 
 /// A surface as the eye sees it.
 struct Seen {
     uint triangle;
     Surface surface;
-    MapPlace at;
+    GridPlace at;
     vec3 to_eye;
     vec3 n_geometric;  // both turned to the eye
     vec3 n_shading;
@@ -21,7 +21,7 @@ Seen see(uint triangle, vec2 barycentrics, vec3 eye) LW_MEMBER {
     seen.n_geometric = seen.front ? seen.surface.geometric_normal : -seen.surface.geometric_normal;
     seen.n_shading = seen.front ? seen.surface.normal : -seen.surface.normal;
     if (dot(seen.n_shading, seen.to_eye) <= 1e-4f) seen.n_shading = seen.n_geometric;
-    seen.at = place_on(map_of(triangle, seen.front), seen.surface.position);
+    seen.at = place_on_grid(grid_of(triangle, seen.front), seen.surface.position);
     return seen;
 }
 

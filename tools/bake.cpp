@@ -80,12 +80,12 @@ void print_lights(const lw::Scene& scene, const lw::Photons& photons) {
 
 void print_map(const lw::PhotonMap& map, size_t triangles) {
     const uint64_t bytes = map.bytes();
-    std::printf("%zu triangles, %zu maps, radius %.4g m, %.3f references per photon\n", triangles, map.grids.size(),
+    std::printf("%zu triangles, %zu grids, radius %.4g m, %.3f references per photon\n", triangles, map.grids.size(),
                 double(map.settings.radius),
                 double(map.places.size()) / double(std::max<uint64_t>(map.stored_photons, 1)));
     if (map.caustic_grids > 0)
         std::printf(
-            "%u of the maps hold caustics, with %zu references\n", map.caustic_grids,
+            "%u of the grids hold caustics, with %zu references\n", map.caustic_grids,
             map.places.size() - size_t(map.cell_starts[map.grids[map.grids.size() - map.caustic_grids].first_cell]));
     std::printf("map %.1f MB (%.1f bytes per stored photon), peak memory %.0f MB\n", double(bytes) / 1e6,
                 double(bytes) / double(std::max<uint64_t>(map.stored_photons, 1)), double(lw::peak_memory()) / 1048576);
@@ -134,7 +134,7 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(misuse_of_radius);
     app.add_option("--neighbour-angle", options.neighbour_angle_deg,
-                   "largest angle in degrees between the normals of a photon and a map")
+                   "largest angle in degrees between the normals of a photon and a patch")
         ->capture_default_str()
         ->check(lw::finite_number(0, 89));
     app.add_option("--direct", options.direct,

@@ -8,7 +8,7 @@
 namespace lw {
 
 /// What the file keeps of the grids, the cuts and the sides of triangles. A reference is the number of a record, or
-/// no_map.
+/// no_grid.
 struct GridRecords {
     std::vector<uint> of_side;         // 2 per triangle: reference
     std::vector<uint> caustic_sides;   // of each marked side of a map with caustics: reference + 1

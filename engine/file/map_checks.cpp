@@ -54,7 +54,7 @@ void check_cuts(const std::filesystem::path& path, const std::vector<SurfaceGrid
         if (i + 1 < last && !is_cut(records[i + 1]))
             refuse(path, "grid " + std::to_string(i + 1) + " comes after cuts");
         for (uint next : {cut.rows, cut.first_cell}) {
-            if (next == no_map) continue;
+            if (next == no_grid) continue;
             if (next < first || next >= last || (is_cut(records[next]) && next <= i))
                 refuse(path, "cut " + std::to_string(i) + " leads to grid " + std::to_string(next));
             deep[i - first] = std::max(deep[i - first], deep[next - first] + 1);
@@ -124,14 +124,14 @@ void check_records(const std::filesystem::path& path, const GridRecords& file, c
         refuse(path, "a triangle refers to grid " + std::to_string(index) + " which does not exist");
     };
     for (uint index : file.of_side)
-        if (index != no_map && index >= others) refuse_grid(index);
+        if (index != no_grid && index >= others) refuse_grid(index);
     for (uint word : file.caustic_sides)
         if (word != 0 && (word - 1 < others || word - 1 >= file.records.size())) refuse_grid(word - 1);
 }
 
 void check_map(const std::filesystem::path& path, PhotonMap& map, const Scene& scene) {
     const bool has_caustics = map.caustic_grids + map.caustic_cuts > 0;
-    if (!map.caustic_sides.accept(has_caustics ? map.triangle_maps.size() : 0))
+    if (!map.caustic_sides.accept(has_caustics ? map.grid_of_side.size() : 0))
         refuse(path, "the number of triangles does not agree with the scene");
     for (const PhotonPlace& place : map.places)
         if (light_of(place) >= scene.lights.size())

@@ -60,7 +60,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
                    DescriptorSet(device, scene_bindings(queries_rays_))} {
     if (scene.triangles.size() > 0xffffffffu / 3u)
         throw Error(scene.path.string() + ": more than " + std::to_string(0xffffffffu / 3u) + " triangles");
-    if (!map.triangle_maps.empty() && map.triangle_maps.size() != 2 * scene.triangles.size())
+    if (!map.grid_of_side.empty() && map.grid_of_side.size() != 2 * scene.triangles.size())
         throw Error(scene.path.string() + ": the photon map belongs to another scene");
     check_device(device, scene, map, queries_rays_);
     if (map.has_coverage()) cells_.emplace(scene, map);
@@ -150,14 +150,15 @@ void Resident::upload_corners(const Scene& scene) {
     for (size_t t = 0; t < scene.triangles.size(); ++t) {
         const Object& object = scene.objects[scene.triangle_objects[t]];
         const auto map = [&](size_t side) {
-            return map_->triangle_maps.empty() ? no_map : map_->triangle_maps[2 * t + side];
+            return map_->grid_of_side.empty() ? no_grid : map_->grid_of_side[2 * t + side];
         };
         triangles.emplace_back(map(0), map(1), object.material, uint(object.light));
     }
-    std::vector<uvec2> caustic_maps;
+    std::vector<uvec2> caustic_grids_of_triangles;
     for (size_t t = 0; t < scene.triangles.size() && map_->caustic_grids > 0; ++t)
-        caustic_maps.emplace_back(map_->caustic_map_of(2 * t), map_->caustic_map_of(2 * t + 1));
-    upload_texels<uvec2>(binding_caustic_maps, vk::Format::eR32G32Uint, caustic_maps, "caustic maps of triangles");
+        caustic_grids_of_triangles.emplace_back(map_->caustic_grid_of(2 * t), map_->caustic_grid_of(2 * t + 1));
+    upload_texels<uvec2>(binding_caustic_grids, vk::Format::eR32G32Uint, caustic_grids_of_triangles,
+                         "grids of caustics of triangles");
     upload_texels<uvec4>(binding_triangles, vk::Format::eR32G32B32A32Uint, triangles, "triangles");
 }
 
@@ -194,7 +195,7 @@ std::vector<uint> Resident::queried(const Bvh& bvh) {
     corners.reserve(entries.size());
     for (uint entry : entries) corners.push_back(scene_->triangles[entry & ~bvh_see_through]);
     const auto opaque = size_t(others - entries.begin());
-    constants_.first_see_through = opaque < entries.size() ? uint(opaque) : no_map;
+    constants_.first_see_through = opaque < entries.size() ? uint(opaque) : no_triangle;
     acceleration_.emplace(*device_, TracedTriangles{scene_->positions, corners, opaque});
     for (const DescriptorSet& set : descriptors_) set.set_acceleration(binding_acceleration, acceleration_->handle());
     return entries;

@@ -22,7 +22,7 @@ struct ResidentSettings {
 
 class Resident {
   public:
-    /// Uploads everything; all lights at factor 1. Scene and map must outlive it; one without triangle_maps means no
+    /// Uploads everything; all lights at factor 1. Scene and map must outlive it; one without grid_of_side means no
     /// photons. Without `bvh` no rays are traced: no shadow rays, mirrors are black, glass is looked
     /// straight through. Throws Error saying which
     /// array does not fit, and what would.

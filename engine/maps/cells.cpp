@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "maps/packing.h"
-#include "maps/plane_maps.h"
+#include "maps/plane_grids.h"
 
 namespace lw {
 namespace {
@@ -60,7 +60,7 @@ CellLight::CellLight(const Scene& scene, const PhotonMap& map)
         if (scene.lights[lamp].type != light_mesh && scene.lights[lamp].type != light_profile)
             punctual_.push_back(lamp);
     direct_.assign(punctual_.size(), std::vector<float>(map.coverage.size(), 0));
-    const PlaneMaps planes(scene, map);
+    const PlaneGrids planes(scene, map);
     parallel_for(map.grids.size(), [&](size_t m) { describe_cells(map.grids[m]); });
     for (const ShadowMask& mask : map.shadow_masks) describe(mask);
     parallel_for(map.grids.size(), [&](size_t m) {

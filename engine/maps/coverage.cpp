@@ -10,16 +10,16 @@
 #include "maps/buried.h"
 #include "maps/coverage_samples.h"
 #include "maps/kernel_weight.h"
-#include "maps/plane_maps.h"
+#include "maps/plane_grids.h"
 #include "maps/references.h"
 
 namespace lw {
 namespace {
 
-/// The samples that belong to one map, sorted into square cells of half the radius in the frame of its grid.
-class MapSamples {
+/// The samples that belong to one patch, sorted into square cells of half the radius in the frame of its grid.
+class GridSamples {
   public:
-    MapSamples(const SurfaceGrid& grid, const std::vector<Photon>& samples, const uint* first, const uint* last)
+    GridSamples(const SurfaceGrid& grid, const std::vector<Photon>& samples, const uint* first, const uint* last)
         : cell_(grid.radius * 0.5f), radius_(grid.radius) {
         const CoverageLevels radii = radii_of_levels(grid);
         for (uint level = 0; level < coverage_levels; ++level) {
@@ -114,8 +114,8 @@ void sample_coverage(const CoverageInput& input, const std::vector<std::vector<u
         const SurfaceGrid& grid = surfaces.grids[m];
         const SurfaceLattice& lattice = grid.lattice;
         const uint* all = references.photons.data();
-        const MapSamples own(grid, samples, all + references.starts[surfaces.patches[m]],
-                             all + references.starts[surfaces.patches[m] + 1]);
+        const GridSamples own(grid, samples, all + references.starts[surfaces.patches[m]],
+                              all + references.starts[surfaces.patches[m] + 1]);
         for (uint n : nodes_of_grid[m]) {
             const vec2 at = lattice.low + vec2(float(n % lattice.columns), float(n / lattice.columns)) * lattice.step;
             const uint node = lattice.first_node + n;

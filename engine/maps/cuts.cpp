@@ -62,7 +62,7 @@ float length_inside(const Outline& outline, const WallLine& line, float radius) 
 class Cutter {
   public:
     Cutter(float radius, Patches& patches, std::vector<PatchShape>& shapes)
-        : radius_(radius), patches_(patches), shapes_(shapes), roots_(shapes.size(), no_map) {}
+        : radius_(radius), patches_(patches), shapes_(shapes), roots_(shapes.size(), no_grid) {}
 
     void cut(uint patch, const Outline& outline, const std::vector<WallLine>& lines) {
         whole_ = shapes_[patch];
@@ -77,7 +77,7 @@ class Cutter {
     void finish() {
         patches_.count = uint(shapes_.size());
         for (uint& side : patches_.of_side)
-            if (roots_[side] != no_map) side = roots_[side];
+            if (roots_[side] != no_grid) side = roots_[side];
     }
 
   private:
@@ -93,7 +93,7 @@ class Cutter {
         const auto index = uint(patches_.cuts.size());
         const vec3 up = whole_.v_axis * best->along.x - whole_.u_axis * best->along.y;
         const vec3 point = whole_.anchor + whole_.u_axis * best->point.x + whole_.v_axis * best->point.y;
-        patches_.cuts.push_back({point, no_map, up, no_map});
+        patches_.cuts.push_back({point, no_grid, up, no_grid});
         const uint front = divide(part_of(outline, *best, 1), depth + 1);
         const uint back = divide(part_of(outline, *best, -1), depth + 1);
         patches_.cuts[index].front = front, patches_.cuts[index].back = back;
@@ -115,9 +115,9 @@ class Cutter {
             }
         }
         piece.low = vec3(low, whole_.low.z), piece.high = vec3(high, whole_.high.z);
-        const uint id = free_ != no_map ? free_ : uint(shapes_.size());
-        if (free_ == no_map) shapes_.emplace_back();
-        free_ = no_map;
+        const uint id = free_ != no_grid ? free_ : uint(shapes_.size());
+        if (free_ == no_grid) shapes_.emplace_back();
+        free_ = no_grid;
         shapes_[id] = std::move(piece);
         return id;
     }
@@ -129,7 +129,7 @@ class Cutter {
     PatchShape whole_;
     const std::vector<WallLine>* lines_ = nullptr;
     size_t left_ = 0;
-    uint free_ = no_map;
+    uint free_ = no_grid;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Walls on a map: where other surfaces stand on a plane patch, it is cut along them, so that what lies on one side of a
-// wall never counts on the other. Each piece is a patch of its own; a patch that nothing stands on stays whole.
+// Walls on a patch: where other surfaces stand on a plane patch, it is cut along them, so that what lies on one side of
+// a wall never counts on the other. Each piece is a patch of its own; a patch that nothing stands on stays whole.
 #pragma once
 #include "maps/patches.h"
 

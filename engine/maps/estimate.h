@@ -77,11 +77,11 @@ class GatherText : public SurfaceReader {
     uvec4 cell_light(uint cell) const { return counted(Record::cell), cell_light_[cell]; }
     uint cell_word(uint word) const { return counted(Record::word), cells_->words[word]; }
     uvec4 shadow_mask(uint i) const { return counted(Record::cell), cells_->masks[i]; }
-    uint map_of(uint triangle, bool front) const { return counted(Record::word), maps_.map_of(triangle, front); }
-    uint caustic_map_of(uint triangle, bool front) const {
-        return counted(Record::word), maps_.caustic_map_of(triangle, front);
+    uint grid_of(uint triangle, bool front) const { return counted(Record::word), maps_.grid_of(triangle, front); }
+    uint caustic_grid_of(uint triangle, bool front) const {
+        return counted(Record::word), maps_.caustic_grid_of(triangle, front);
     }
-    const SurfaceGrid& grid_at(uint map) const { return counted(Record::grid), maps_.grid_at(map); }
+    const SurfaceGrid& grid_at(uint index) const { return counted(Record::grid), maps_.grid_at(index); }
     const Cut& cut_at(uint i) const { return counted(Record::grid), maps_.cut_at(i); }
     uint cell_start(uint cell) const { return counted(Record::word), maps_.cell_start(cell); }
     const BvhNode& bvh_node_at(uint i) const { return counted(Record::box), bvh_.nodes[i]; }

@@ -10,7 +10,7 @@
 namespace lw {
 namespace {
 
-/// What a map keeps of a photon.
+/// What a grid keeps of a photon.
 struct Record {
     vec3 local;  // u, v, h from the anchor of the patch, m
     uint origin, flux;

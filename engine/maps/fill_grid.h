@@ -1,4 +1,4 @@
-// The photons that one map refers to, brought into its frame, packed and sorted by the cells of its grid.
+// The photons that one patch refers to, brought into its frame, packed and sorted by the cells of its grid.
 #pragma once
 #include <span>
 

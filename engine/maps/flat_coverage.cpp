@@ -64,7 +64,7 @@ struct Wall {
     vec3 normal, point;
 };
 
-/// The ground around the blocks of one map, in the frame of its grid.
+/// The ground around the blocks of one patch, in the frame of its grid.
 class Ground {
   public:
     Ground(const CoverageInput& input, size_t m)
@@ -77,7 +77,7 @@ class Ground {
         limit_support();
     }
 
-    /// The polygons of the plane at `height` around the rectangle [low, high], clipped to where the map refers to
+    /// The polygons of the plane at `height` around the rectangle [low, high], clipped to where the patch refers to
     /// photons; nullopt when the ground is not as simple as that.
     std::optional<std::vector<Polygon>> look(vec2 low, vec2 high, float height) {
         const float reach = (1 + burying_reach) * radius_;
@@ -98,7 +98,7 @@ class Ground {
     }
 
   private:
-    /// Lines around the places whose photons the map refers to.
+    /// Lines around the places whose photons the patch refers to.
     void limit_support() {
         Polygon rim;
         if (shape_.triangles == 1) {
@@ -206,7 +206,7 @@ CoverageLevels integrate_kernels(const std::vector<vec2>& polygon, const Coverag
 
 namespace {
 
-/// The nodes of a map, block after block.
+/// The nodes of a lattice, block after block.
 class FlatCoverage {
   public:
     FlatCoverage(Ground ground, const SurfaceGrid& grid, const NodePoint* nodes, CoverageLevels* coverage,

@@ -28,7 +28,7 @@ CoverageLevels integrate_kernels(const std::vector<vec2>& polygon, const Coverag
 /// left alone; their indices, from the first node of the grid, are returned.
 std::vector<uint> find_flat_coverage(const CoverageInput& input, size_t m, CoverageLevels* coverage);
 
-/// The radii of the levels of a map, m.
+/// The radii of the levels of a grid, m.
 CoverageLevels radii_of_levels(const SurfaceGrid& grid);
 
 }  // namespace lw

@@ -8,7 +8,7 @@ namespace lw {
 /// Records must outlive it.
 struct GridReader {
     const PhotonRecords& records;
-    float max_radius;       // largest search radius of the map, m
+    float max_radius;  // largest search radius of the map, m
     // Photons that bandwidth_from_counts() wants under a kernel.
     uint neighbours = GatherSettings{}.neighbours;
 

@@ -40,7 +40,7 @@ class NodeLight {
           adds_meshes_(!input.visible_lamps.empty() && has_meshes(input.scene)) {}
 
     /// Writes light[lamp * all nodes + node] for the nodes of grid m.
-    void light_map(uint m, std::vector<vec3>& light) const {
+    void light_grid(uint m, std::vector<vec3>& light) const {
         const SurfaceLattice& lattice = grids_[m].lattice;
         const LatticePlanes reflected = reflected_light(grids_[m]);
         for (uint y = 0; y < lattice.rows; ++y)
@@ -55,7 +55,7 @@ class NodeLight {
   private:
     size_t index(uint lamp, uint node) const { return size_t(lamp) * nodes_.size() + node; }
 
-    /// What the photons bring to the nodes of a map, smoothed: three planes per lamp. The weights of the smoothing are
+    /// What the photons bring to the nodes of a grid, smoothed: three planes per lamp. The weights of the smoothing are
     /// those at the file's powers for all lamps alike, so that the result stays linear in the powers.
     LatticePlanes reflected_light(const SurfaceGrid& grid) const {
         const SurfaceLattice& lattice = grid.lattice;
@@ -188,7 +188,7 @@ NodeIrradiance find_irradiance(const IrradianceInput& input) {
     const NodeLight node_light(input);
     Progress progress("irradiance", nodes);
     parallel_for(grids.size(), [&](size_t m) {
-        node_light.light_map(uint(m), light);
+        node_light.light_grid(uint(m), light);
         progress.step(grids[m].lattice.columns * grids[m].lattice.rows);
     });
     float top = 0;

@@ -6,23 +6,23 @@
 
 namespace lw {
 
-/// Read-only view of a PhotonMap with the functions of shaders/map_lookup.glsl as members: place_on(map, position),
-/// bandwidth_from_counts(grid, local), caustic_radius(grid, local), covered_part(place, radius). The map must outlive
-/// it.
+/// Read-only view of a PhotonMap with the functions of shaders/map_lookup.glsl as members: place_on_grid(index,
+/// position), bandwidth_from_counts(grid, local), caustic_radius(grid, local), covered_part(place, radius). The map
+/// must outlive it.
 class MapReader {
   public:
     /// `neighbours_wanted`: photons that the disc of bandwidth_from_counts() should hold.
     explicit MapReader(const PhotonMap& map, uint neighbours_wanted = GatherSettings{}.neighbours)
         : neighbours(neighbours_wanted), has_coverage(map.has_coverage()), map_(map) {}
 
-    /// The grid or cut of a side of a triangle, or no_map. caustic_map_of(): that of its caustics, only for maps with
+    /// The grid or cut of a side of a triangle, or no_grid. caustic_grid_of(): that of its caustics, only for maps with
     /// caustics.
-    uint map_of(uint triangle, bool front) const { return map_.triangle_maps[2 * size_t(triangle) + (front ? 0 : 1)]; }
-    uint caustic_map_of(uint triangle, bool front) const {
-        return map_.caustic_map_of(2 * size_t(triangle) + (front ? 0 : 1));
+    uint grid_of(uint triangle, bool front) const { return map_.grid_of_side[2 * size_t(triangle) + (front ? 0 : 1)]; }
+    uint caustic_grid_of(uint triangle, bool front) const {
+        return map_.caustic_grid_of(2 * size_t(triangle) + (front ? 0 : 1));
     }
-    /// The grid of this index; an empty one for no_map.
-    const SurfaceGrid& grid_at(uint map) const { return map < map_.grids.size() ? map_.grids[map] : empty_grid; }
+    /// The grid of this index; an empty one for no_grid.
+    const SurfaceGrid& grid_at(uint index) const { return index < map_.grids.size() ? map_.grids[index] : empty_grid; }
     const Cut& cut_at(uint i) const { return map_.cuts[i]; }
     uint cell_start(uint cell) const { return map_.cell_starts[cell]; }
     uint node_coverage(uint node) const { return map_.coverage[node]; }

@@ -15,15 +15,15 @@ namespace {
 
 constexpr float max_nodes_across = 16384;
 
-/// The triangle sides of each map: those of map m are sides[starts[m]] .. sides[starts[m + 1] - 1].
-struct SidesOfMaps {
-    explicit SidesOfMaps(const SurfaceGrids& map) : starts(map.grids.size() + 1, 0) {
-        for (uint index : map.triangle_maps) map.for_each_map(index, [&](uint m) { ++starts[m + 1]; });
+/// The triangle sides of each grid: those of grid m are sides[starts[m]] .. sides[starts[m + 1] - 1].
+struct SidesOfGrids {
+    explicit SidesOfGrids(const SurfaceGrids& map) : starts(map.grids.size() + 1, 0) {
+        for (uint index : map.grid_of_side) map.for_each_grid(index, [&](uint m) { ++starts[m + 1]; });
         for (size_t m = 1; m < starts.size(); ++m) starts[m] += starts[m - 1];
         sides.resize(starts.back());
         std::vector<uint> next(starts.begin(), starts.end() - 1);
-        for (size_t side = 0; side < map.triangle_maps.size(); ++side)
-            map.for_each_map(map.triangle_maps[side], [&](uint m) { sides[next[m]++] = uint(side); });
+        for (size_t side = 0; side < map.grid_of_side.size(); ++side)
+            map.for_each_grid(map.grid_of_side[side], [&](uint m) { sides[next[m]++] = uint(side); });
     }
     std::vector<uint> starts, sides;
 };
@@ -72,7 +72,7 @@ vec2 nearest_barycentrics(vec2 a, vec2 b, vec2 c, vec2& nearest) {
     return clamp(vec2(v, w), vec2(0), vec2(1));
 }
 
-/// Offers one triangle side to the nodes around it; where a map is cut, only what lies inside its `outline`, in the
+/// Offers one triangle side to the nodes around it; where a patch is cut, only what lies inside its `outline`, in the
 /// lattice's frame.
 void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& locals, uint triangle,
                  const std::vector<vec2>& outline, std::vector<NodePoint>& nodes) {
@@ -117,10 +117,10 @@ Nodes lay_nodes(const Scene& scene, const Partition& partition, PatchGrids surfa
         lattice.first_node = uint(count);
         count += uint64_t(lattice.columns) * lattice.rows;
     }
-    if (count * visibility_words(uint(scene.lights.size())) >= no_map)
+    if (count * visibility_words(uint(scene.lights.size())) >= no_grid)
         throw Error("photon map: more than 2^32 lattice nodes; use a larger radius");
     std::vector<NodePoint> points(count);
-    const SidesOfMaps sides(surfaces);
+    const SidesOfGrids sides(surfaces);
     parallel_for(surfaces.grids.size(), [&](size_t m) {
         const SurfaceGrid& grid = surfaces.grids[m];
         const SurfaceLattice& lattice = grid.lattice;

@@ -7,14 +7,14 @@
 
 namespace lw {
 
-/// The point of a map's surface that a node stands for: the nearest one in projection along the map's normal.
+/// The point of a patch's surface that a node stands for: the nearest one in projection along the grid's normal.
 struct NodePoint {
-    uint triangle = no_map;
+    uint triangle = no_triangle;
     vec2 barycentrics{0};
     float distance2 = 1e30f;  // m2, in projection; 0 when the node lies over the surface
     float height = -1e30f;    // m, over the grid's origin; where sheets overlap the highest is the one that is seen
 
-    bool exists() const { return triangle != no_map; }
+    bool exists() const { return triangle != no_triangle; }
 };
 
 /// The grids of the patches, each with the lattice laid over its patch, and the points of all nodes.

@@ -14,7 +14,7 @@ namespace lw {
 namespace {
 
 constexpr float gap_in_patches = 0.004f;        // heights further apart than this are two sheets
-constexpr float needle_in_patches = 1.0f / 64;  // narrower large triangles share a map too
+constexpr float needle_in_patches = 1.0f / 64;  // narrower large triangles share a patch too
 
 /// Face of the cube and 3 x 3 sub-bin that a direction points at; axis-aligned normals lie in bin centres.
 uint normal_bin(vec3 n) {

@@ -1,4 +1,4 @@
-// Which map each side of each triangle belongs to. A large triangle has a map of its own, as in the paper; small
+// Which patch each side of each triangle belongs to. A large triangle is a patch of its own, as in the paper; small
 // triangles of one object, of like orientation, in one cell of space and of one sheet share one, so that references per
 // photon do not grow with the tessellation.
 #pragma once

@@ -21,7 +21,7 @@ SurfaceGrid frame_of(const PatchShape& shape, float radius) {
 /// Numbers the patches that refer to photons, and the cuts that lead to any of them.
 PatchGrids number_lit_patches(const References& references, const Patches& patches) {
     PatchGrids lit;
-    std::vector<uint> grid_of_patch(patches.count, no_map), renumbered_cuts(patches.cuts.size(), no_map);
+    std::vector<uint> grid_of_patch(patches.count, no_grid), renumbered_cuts(patches.cuts.size(), no_grid);
     for (uint p = 0; p < patches.count; ++p) {
         if (references.starts[p] == references.starts[p + 1]) continue;
         grid_of_patch[p] = uint(lit.patches.size());
@@ -30,7 +30,7 @@ PatchGrids number_lit_patches(const References& references, const Patches& patch
     const auto renumbered = [&](uint id) { return is_cut(id) ? renumbered_cuts[id & ~cut_bit] : grid_of_patch[id]; };
     std::vector<char> is_lit(patches.cuts.size(), 0);
     const auto leads_to_light = [&](uint id) {
-        return is_cut(id) ? is_lit[id & ~cut_bit] != 0 : grid_of_patch[id] != no_map;
+        return is_cut(id) ? is_lit[id & ~cut_bit] != 0 : grid_of_patch[id] != no_grid;
     };
     for (size_t c = patches.cuts.size(); c-- > 0;)  // those it leads to first
         is_lit[c] = leads_to_light(patches.cuts[c].front) || leads_to_light(patches.cuts[c].back);
@@ -41,8 +41,8 @@ PatchGrids number_lit_patches(const References& references, const Patches& patch
             const Cut& cut = patches.cuts[c];
             lit.cuts.push_back({cut.point, renumbered(cut.front), cut.normal, renumbered(cut.back)});
         }
-    lit.triangle_maps.reserve(patches.of_side.size());
-    for (uint id : patches.of_side) lit.triangle_maps.push_back(renumbered(id));
+    lit.grid_of_side.reserve(patches.of_side.size());
+    for (uint id : patches.of_side) lit.grid_of_side.push_back(renumbered(id));
     return lit;
 }
 
@@ -53,7 +53,7 @@ void join_cells(const std::vector<std::vector<uint>>& starts, PhotonGrids& grids
         grids.surfaces.grids[m].first_cell = uint(cells);
         cells += starts[m].size();
     }
-    if (cells >= no_map) throw Error("photon map: more than 2^32 cells; use fewer photons");
+    if (cells >= no_grid) throw Error("photon map: more than 2^32 cells; use fewer photons");
     std::vector<uint>& joined = grids.records.cell_starts;
     joined.reserve(cells + 1);
     for (const std::vector<uint>& part : starts) joined.insert(joined.end(), part.begin(), part.end());
@@ -86,10 +86,12 @@ PhotonGrids sort_into_grids(const ReferenceInput& input, RecordSettings settings
 std::vector<uint> append_grids(PhotonGrids more, SurfaceGrids& grids, PhotonRecords& records) {
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     const auto first_grid = uint(grids.grids.size()), first_cut = uint(grids.cuts.size());
-    const auto renumbered = [&](uint id) { return id == no_map ? no_map : id + (is_cut(id) ? first_cut : first_grid); };
+    const auto renumbered = [&](uint id) {
+        return id == no_grid ? no_grid : id + (is_cut(id) ? first_cut : first_grid);
+    };
     if (!records.cell_starts.empty()) records.cell_starts.pop_back();  // the end of the last cell
     const uint64_t first_cell = records.cell_starts.size(), first_record = records.places.size();
-    if (first_cell + more.records.cell_starts.size() > no_map || first_record + more.records.places.size() > no_map)
+    if (first_cell + more.records.cell_starts.size() > no_grid || first_record + more.records.places.size() > no_grid)
         throw Error("photon map: more than 2^32 cells or references; use fewer photons");
     for (SurfaceGrid& grid : more.surfaces.grids) grid.first_cell += uint(first_cell);
     for (Cut& cut : more.surfaces.cuts) cut.front = renumbered(cut.front), cut.back = renumbered(cut.back);
@@ -100,8 +102,8 @@ std::vector<uint> append_grids(PhotonGrids more, SurfaceGrids& grids, PhotonReco
     append(records.places, more.records.places);
     append(records.fluxes, more.records.fluxes);
     append(records.directions, more.records.directions);
-    for (uint& id : more.surfaces.triangle_maps) id = renumbered(id);
-    return std::move(more.surfaces.triangle_maps);
+    for (uint& id : more.surfaces.grid_of_side) id = renumbered(id);
+    return std::move(more.surfaces.grid_of_side);
 }
 
 }  // namespace lw

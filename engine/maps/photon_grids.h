@@ -26,7 +26,7 @@ struct RecordSettings {
 PhotonGrids sort_into_grids(const ReferenceInput& input, RecordSettings settings);
 
 /// Appends the grids, cuts and records of `more` behind those of `grids` and `records`, whose sides keep to their own.
-/// Returns the map or cut of each side in `more`, by its new number.
+/// Returns the grid or cut of each side in `more`, by its new number.
 std::vector<uint> append_grids(PhotonGrids more, SurfaceGrids& grids, PhotonRecords& records);
 
 }  // namespace lw

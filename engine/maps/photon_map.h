@@ -12,31 +12,29 @@ namespace lw {
 struct BakeSettings {
     uint64_t photons = 1'000'000;    // stored photons asked for
     float radius = 0;                // m, largest search radius; 0 in the settings means automatic
-    float neighbour_angle_deg = 60;  // largest angle between the normals of a photon and a map that refers to it
+    float neighbour_angle_deg = 60;  // largest angle between the normals of a photon and a patch that refers to it
     uint64_t seed = 1;
     bool direct_in_photons = false;  // direct light: from photons as in the paper, or exact by shadow rays
 };
 
-/// The grids of the surfaces of a scene, and which of them each side of a triangle lies in. Where a map, or its number,
-/// is spoken of, it is one of these grids.
+/// The photon grids of the patches of a scene, and which of them each side of a triangle lies in.
 struct SurfaceGrids {
-    std::vector<uint> triangle_maps;  // 2 per triangle: map or cut of the front side, of the back side, or no_map
-    std::vector<SurfaceGrid> grids;   // per map
-    std::vector<Cut> cuts;            // each before those it leads to
+    std::vector<uint> grid_of_side;  // 2 per triangle: grid or cut of the front side, of the back side, or no_grid
+    std::vector<SurfaceGrid> grids;  // one per patch
+    std::vector<Cut> cuts;           // each before those it leads to
 
-    /// Calls visit(map) for every map in which points of a surface lie whose map is `index`: itself, or those behind
-    /// its cuts.
+    /// Calls visit(grid) for every grid in which points of a surface lie whose grid or cut is `index`.
     template <class Visit>
-    void for_each_map(uint index, const Visit& visit) const {
-        if (index == no_map) return;
+    void for_each_grid(uint index, const Visit& visit) const {
+        if (index == no_grid) return;
         if (!is_cut(index)) return visit(index);
         const Cut& cut = cuts[index & ~cut_bit];
-        for_each_map(cut.front, visit);
-        for_each_map(cut.back, visit);
+        for_each_grid(cut.front, visit);
+        for_each_grid(cut.back, visit);
     }
 
-    /// The map of a point of a surface whose map is `index`.
-    uint map_at(uint index, vec3 position) const {
+    /// The grid of a point of a surface whose grid or cut is `index`; no_grid where it has none.
+    uint behind_cuts(uint index, vec3 position) const {
         while (is_cut(index)) index = behind_cut(cuts[index & ~cut_bit], position);
         return index;
     }
@@ -61,11 +59,11 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
     BakeSettings settings;  // with the radius that was used
     uint64_t stored_photons = 0;
     std::vector<uint64_t> emitted;  // photons emitted per light
-    SparseArray caustic_sides;      // when there are caustics, 2 per triangle: their map or cut + 1, or 0
-    uint caustic_grids = 0;         // how many of the grids; their photons (path_caustic) are in no other map
+    SparseArray caustic_sides;      // when there are caustics, 2 per triangle: their grid or cut + 1, or 0
+    uint caustic_grids = 0;         // how many of the grids; their photons (path_caustic) are in no other grid
     uint caustic_cuts = 0;          // how many of the cuts, the last ones
 
-    std::vector<uint> coverage;       // per node of the lattices of all maps, see unpack_coverage()
+    std::vector<uint> coverage;       // per node of all lattices, see unpack_coverage()
     std::vector<uint> visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all
                                       // light
     SparseArray irradiance;           // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
@@ -77,13 +75,13 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
     /// All arrays together.
     uint64_t bytes() const {
         const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
-        return size(triangle_maps, grids, cuts, cell_starts, places, fluxes, directions, coverage, visible_lamps,
+        return size(grid_of_side, grids, cuts, cell_starts, places, fluxes, directions, coverage, visible_lamps,
                     smooth_caustics, shadow_masks) +
                caustic_sides.bytes() + irradiance.bytes();
     }
 
-    /// The map of caustics of a side of a triangle, 2 per triangle, or no_map; only where there are caustics.
-    uint caustic_map_of(size_t side) const { return caustic_sides[side] - 1u; }
+    /// The grid or cut of caustics of a side of a triangle, 2 per triangle, or no_grid; only where there are caustics.
+    uint caustic_grid_of(size_t side) const { return caustic_sides[side] - 1u; }
     bool holds_caustics(size_t node) const {
         return !smooth_caustics.empty() && ((smooth_caustics[node / 32] >> (node % 32)) & 1u);
     }

@@ -1,4 +1,4 @@
-// The photons of one map, unpacked, and their kernel sums at many points: what a bake evaluates at the lattice nodes.
+// The photons of one grid, unpacked, and their kernel sums at many points: what a bake evaluates at the lattice nodes.
 // A row of cells is a run of arrays, so that the distance test fills whole vector registers.
 #pragma once
 #include <span>

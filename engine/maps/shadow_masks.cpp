@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "maps/packing.h"
-#include "maps/plane_maps.h"
+#include "maps/plane_grids.h"
 #include "trace/emitter.h"
 
 namespace lw {
@@ -104,7 +104,7 @@ class MaskRays {
     const std::vector<SurfaceGrid>& grids_;
     const std::vector<uint>& visible_lamps_;
     Emitters emitters_;
-    PlaneMaps planes_;
+    PlaneGrids planes_;
 };
 
 }  // namespace
@@ -112,14 +112,14 @@ class MaskRays {
 std::vector<ShadowMask> find_shadow_masks(const Scene& scene, const RayCaster& caster, const Lattice& lattice,
                                           const std::vector<uint>& visible_lamps) {
     const MaskRays rays(scene, caster, lattice, visible_lamps);
-    std::vector<std::vector<ShadowMask>> of_maps(lattice.surfaces.grids.size());
+    std::vector<std::vector<ShadowMask>> of_grids(lattice.surfaces.grids.size());
     Progress progress("shadow masks", lattice.surfaces.grids.size());
     parallel_for(lattice.surfaces.grids.size(), [&](size_t m) {
-        of_maps[m] = rays.masks_of(uint(m));
+        of_grids[m] = rays.masks_of(uint(m));
         progress.step(1);
     });
     std::vector<ShadowMask> masks;
-    for (const std::vector<ShadowMask>& found : of_maps) masks.insert(masks.end(), found.begin(), found.end());
+    for (const std::vector<ShadowMask>& found : of_grids) masks.insert(masks.end(), found.begin(), found.end());
     return masks;
 }
 

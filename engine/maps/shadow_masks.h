@@ -1,4 +1,4 @@
-// Where small lamps cast shadows on plane maps: a lamp is there or not, so 8 x 8 looks at it from a cell say most.
+// Where small lamps cast shadows on plane patches: a lamp is there or not, so 8 x 8 looks at it from a cell say most.
 #pragma once
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace lw {
 
-/// A mask of each point, spot or directional lamp in each cell of a plane map around which the nodes disagree
+/// A mask of each point, spot or directional lamp in each cell of a plane patch around which the nodes disagree
 /// (`visible_lamps`, of find_visibility()), in the order of cells and lamps. None where what stands between tints the
 /// light unevenly.
 std::vector<ShadowMask> find_shadow_masks(const Scene& scene, const RayCaster& caster, const Lattice& lattice,

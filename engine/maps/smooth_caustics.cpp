@@ -31,9 +31,9 @@ class CausticNodes {
         if (!point.exists()) return false;
         const Surface s = surfaces_.surface_at(point.triangle, point.barycentrics);
         const bool front = dot(s.geometric_normal, lattice_.surfaces.grids[m].normal) >= 0;
-        const uint own = caustics_.surfaces.map_at(
-            caustics_.surfaces.triangle_maps[2 * size_t(point.triangle) + (front ? 0 : 1)], s.position);
-        if (own == no_map) return true;
+        const uint own = caustics_.surfaces.behind_cuts(
+            caustics_.surfaces.grid_of_side[2 * size_t(point.triangle) + (front ? 0 : 1)], s.position);
+        if (own == no_grid) return true;
         const SurfaceGrid& grid = caustics_.surfaces.grids[own];
         const SurfaceLattice& lattice = lattice_.surfaces.grids[m].lattice;
         const vec3 local = position_in_grid(grid, s.position);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int rays_to_mesh = 3;
 
-/// A point of a map's surface and the direction its lit side faces.
+/// A point of a patch's surface and the direction its lit side faces.
 struct Receiver {
     vec3 position, normal;
 };

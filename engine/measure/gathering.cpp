@@ -82,7 +82,7 @@ void Gatherer::add_photons(const SurfaceGrid& grid, float radius, float covered,
 /// Adds the reflected light of the photons within half the search radius. A radius that does not depend on the photons
 /// keeps their sum unbiased, and rays average the noise at single points.
 void Gatherer::add_reflected(const Seen& at, Gathering& to) const {
-    if (at.at.map == no_map) return;
+    if (at.at.index == no_grid) return;
     const float radius = 0.5f * at.at.grid.radius;
     add_photons(at.at.grid, radius, maps_.covered_part(at.at, radius), at, true, to);
 }
@@ -91,9 +91,9 @@ void Gatherer::add_reflected(const Seen& at, Gathering& to) const {
 /// with_meshes = false leaves out mesh lamps, which the path finds itself when it goes on.
 void Gatherer::add_caustics(const Seen& at, bool with_meshes, Gathering& to) const {
     const uint own = map_.caustic_grids > 0
-                         ? maps_.map_at(maps_.caustic_map_of(at.triangle, at.front), at.surface.position)
-                         : no_map;
-    if (own == no_map) return;
+                         ? maps_.behind_cuts(maps_.caustic_grid_of(at.triangle, at.front), at.surface.position)
+                         : no_grid;
+    if (own == no_grid) return;
     const SurfaceGrid& grid = maps_.grid_at(own);
     const float radius = maps_.caustic_radius(grid, position_in_grid(grid, at.surface.position));
     add_photons(grid, radius, maps_.caustic_coverage(at.at, grid, radius), at, with_meshes, to);
@@ -104,7 +104,7 @@ void Gatherer::add_caustics(const Seen& at, bool with_meshes, Gathering& to) con
 bool Gatherer::is_resolved(const Seen& seen) const {
     constexpr int feelers = 6;
     constexpr float reach = 1.2f;  // more than 1 / cos 30 degrees, so that a wall between two rays is met
-    if (seen.at.map == no_map) return true;
+    if (seen.at.index == no_grid) return true;
     const float radius = 0.5f * seen.at.grid.radius;
     if (maps_.covered_part(seen.at, radius) < min_used_coverage) return false;
     const mat3 frame = frame_around(seen.n_geometric);
@@ -118,7 +118,7 @@ bool Gatherer::is_resolved(const Seen& seen) const {
 auto Gatherer::seen_from(vec3 to_view, const Hit& hit, const Surface& s) const -> Seen {
     const bool front = dot(s.geometric_normal, to_view) >= 0;
     const vec3 n_geometric = front ? s.geometric_normal : -s.geometric_normal, n = front ? s.normal : -s.normal;
-    const MapReader::MapPlace at = maps_.place_on(maps_.map_of(hit.triangle, front), s.position);
+    const MapReader::GridPlace at = maps_.place_on_grid(maps_.grid_of(hit.triangle, front), s.position);
     return {hit.triangle, s, at, to_view, n_geometric, dot(n, to_view) > 1e-4f ? n : n_geometric, front};
 }
 

@@ -59,7 +59,7 @@ class Gatherer {
     struct Seen {
         uint triangle;
         Surface surface;
-        MapReader::MapPlace at;
+        MapReader::GridPlace at;
         vec3 to_view;
         vec3 n_geometric;  // both turned to the ray's origin
         vec3 n_shading;

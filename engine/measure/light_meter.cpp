@@ -121,9 +121,9 @@ void LightMeter::add_caustic_on(const Sensor& sensor, PhotonShares& shares, Read
     if (!hit) return;
     const Surface s = surfaces.surface_at(hit->triangle, hit->barycentrics);
     const bool front = dot(s.geometric_normal, sensor.normal) > 0;
-    const uint own = maps.map_at(maps.caustic_map_of(hit->triangle, front), s.position);
-    if (own == no_map) return;
-    const MapReader::MapPlace at = maps.place_on(maps.map_of(hit->triangle, front), s.position);
+    const uint own = maps.behind_cuts(maps.caustic_grid_of(hit->triangle, front), s.position);
+    if (own == no_grid) return;
+    const MapReader::GridPlace at = maps.place_on_grid(maps.grid_of(hit->triangle, front), s.position);
     const SurfaceGrid& grid = maps.grid_at(own);
     const vec3 local = position_in_grid(grid, s.position);
     const float wide = maps.caustic_radius(grid, local);

@@ -62,10 +62,11 @@ class Meter {
         m.triangle = hit.triangle;
         m.lamps.resize(scene_.lights.size());
         float variance = 0;
-        const MapReader::MapPlace place = maps_.place_on(maps_.map_of(hit.triangle, front), s.position);
-        if (place.map != no_map) variance += add_reflected(place.grid, place, false, m);
+        const MapReader::GridPlace place = maps_.place_on_grid(maps_.grid_of(hit.triangle, front), s.position);
+        if (place.index != no_grid) variance += add_reflected(place.grid, place, false, m);
         if (map_.caustic_grids > 0)
-            if (const uint own = maps_.map_at(maps_.caustic_map_of(hit.triangle, front), s.position); own != no_map)
+            if (const uint own = maps_.behind_cuts(maps_.caustic_grid_of(hit.triangle, front), s.position);
+                own != no_grid)
                 variance += add_reflected(maps_.grid_at(own), place, true, m);
         if (parts_.has_direct)
             for (uint lamp = 0; lamp < scene_.lights.size(); ++lamp) variance += add_direct(lamp, m);
@@ -109,7 +110,8 @@ class Meter {
 
     /// Returns the variance with the square of the bias, which grows as the square of the bandwidth: what narrower
     /// kernels read differently, less what noise alone makes different.
-    float add_reflected(const SurfaceGrid& grid, const MapReader::MapPlace& place, bool caustic, Measurement& m) const {
+    float add_reflected(const SurfaceGrid& grid, const MapReader::GridPlace& place, bool caustic,
+                        Measurement& m) const {
         const vec3 local = position_in_grid(grid, m.position);
         const float bandwidth = caustic ? maps_.caustic_radius(grid, local) : maps_.bandwidth_from_counts(grid, local);
         if (m.bandwidth <= 0) m.bandwidth = bandwidth;

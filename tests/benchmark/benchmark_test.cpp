@@ -61,17 +61,17 @@ TEST(NeighbourSearch, FourStructuresFindTheSamePhotonsOnAFlatFloor) {
     const Photons photons = shoot_photons(room, caster, {.photons = bake.photons, .direct_in_photons = true});
     const PhotonMap map = build_photon_map(room, caster, photons, bake);
     const PhotonCloud cloud(room, photons.records);
-    const MapGridSearch grid(map);
-    const MapTreeSearch trees(map);
+    const GridSearch grid(map);
+    const GridTreeSearch trees(map);
     const GlobalTreeSearch tree(cloud, map);
     const HashGridSearch hash(cloud, map, 0.1f);
     for (const vec2 place : {vec2(3.1f, 1.3f), vec2(7, 6), vec2(0.05f, 4), vec2(5, 7.98f)}) {
         const vec3 point(place.x, 0, place.y);
         const std::optional<Hit> floor = caster.nearest(point + vec3(0, 0.1f, 0), vec3(0, -1, 0));
         ASSERT_TRUE(floor);
-        const Query query{point, vec3(0, 1, 0), map.map_at(map.triangle_maps[2 * floor->triangle], point)};
-        ASSERT_NE(query.map, no_map);
-        const float radius = map.grids[query.map].radius;
+        const Query query{point, vec3(0, 1, 0), map.behind_cuts(map.grid_of_side[2 * floor->triangle], point)};
+        ASSERT_NE(query.grid, no_grid);
+        const float radius = map.grids[query.grid].radius;
         const std::vector<float> expected = distances(grid, query, 50, radius);
         ASSERT_EQ(expected.size(), 50u);
         for (const auto& other : {distances(trees, query, 50, radius), distances(tree, query, 50, radius),

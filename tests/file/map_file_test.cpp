@@ -49,7 +49,7 @@ TEST_F(MapFile, RoundTrips) {
     ASSERT_EQ(got.places.size(), map.places.size());
     EXPECT_EQ(std::memcmp(got.places.data(), map.places.data(), map.places.size() * sizeof(PhotonPlace)), 0);
     EXPECT_EQ(got.fluxes, map.fluxes);
-    EXPECT_EQ(got.triangle_maps, map.triangle_maps);
+    EXPECT_EQ(got.grid_of_side, map.grid_of_side);
     const size_t records = map.coverage.size() * scene.lights.size();
     for (size_t i = 0; i < records; ++i) ASSERT_EQ(got.irradiance[i], map.irradiance[i]);
 }
@@ -116,14 +116,14 @@ TEST_F(MapFile, SignedMapsThatLeadOutOfTheirArraysAreRefused) {
     refused([](PhotonMap& m) { m.irradiance.values.pop_back(); });
     refused([](PhotonMap& m) { m.irradiance.marks.pop_back(); });
     refused([](PhotonMap& m) { m.irradiance.marks.push_back(0); });
-    refused([](PhotonMap& m) { m.caustic_sides = SparseArray(std::vector<uint>(m.triangle_maps.size(), 0)); });
+    refused([](PhotonMap& m) { m.caustic_sides = SparseArray(std::vector<uint>(m.grid_of_side.size(), 0)); });
     refused([](PhotonMap& m) { m.shadow_masks.push_back({uint(m.coverage.size()), 0, 1, 0, 0}); });
     refused([](PhotonMap& m) { m.shadow_masks.push_back({0, uint(m.emitted.size()), 1, 0, 0}); });
     refused([](PhotonMap& m) { m.shadow_masks.assign(2, {0, 0, 1, 0, 0}); });
     refused([](PhotonMap& m) { m.irradiance = {}; });
     refused([](PhotonMap& m) { m.places.pop_back(); });
     refused([](PhotonMap& m) { m.places[0].h_light_and_path |= light_mask << 16; });
-    refused([](PhotonMap& m) { m.triangle_maps[0] = uint(m.grids.size()); });
+    refused([](PhotonMap& m) { m.grid_of_side[0] = uint(m.grids.size()); });
     refused([](PhotonMap& m) { m.cell_starts[0] = uint(m.places.size()) + 1; });
     refused([](PhotonMap& m) { m.cell_starts[0] = 1, m.cell_starts[1] = std::max(m.cell_starts[1], 1u); });
     refused([](PhotonMap& m) { m.irradiance_scale = 0; });
@@ -140,9 +140,9 @@ TEST_F(MapFile, WithCausticsRoundTripsAndIsRefusedWhenTheirGridsAreMixedUp) {
     save_photon_map(path, good);
     const PhotonMap got = load_photon_map(path, glass);
     EXPECT_EQ(got.caustic_grids, good.caustic_grids);
-    EXPECT_EQ(got.triangle_maps, good.triangle_maps);
-    for (size_t side = 0; side < good.triangle_maps.size(); ++side)
-        ASSERT_EQ(got.caustic_map_of(side), good.caustic_map_of(side));
+    EXPECT_EQ(got.grid_of_side, good.grid_of_side);
+    for (size_t side = 0; side < good.grid_of_side.size(); ++side)
+        ASSERT_EQ(got.caustic_grid_of(side), good.caustic_grid_of(side));
     const auto refused = [&](const auto& damage) {
         PhotonMap bad = good;
         damage(bad);
@@ -153,7 +153,7 @@ TEST_F(MapFile, WithCausticsRoundTripsAndIsRefusedWhenTheirGridsAreMixedUp) {
     ASSERT_FALSE(good.smooth_caustics.empty());
     refused([](PhotonMap& m) { m.smooth_caustics.pop_back(); });
     refused([](PhotonMap& m) { --m.caustic_grids; });
-    refused([](PhotonMap& m) { m.triangle_maps[0] = uint(m.grids.size()) - 1; });
+    refused([](PhotonMap& m) { m.grid_of_side[0] = uint(m.grids.size()) - 1; });
     refused([](PhotonMap& m) { m.caustic_sides.values.back() = 1; });
     refused([](PhotonMap& m) { m.caustic_sides.values.back() = uint(m.grids.size() + m.cuts.size()) + 1; });
     refused([](PhotonMap& m) { m.caustic_sides = {}; });
@@ -190,7 +190,7 @@ TEST_F(MapFile, WithCutsRoundTripsAndIsRefusedWhenTheyLeadAstray) {
     save_photon_map(path, baked.map);
     const PhotonMap got = load_photon_map(path, baked.scene);
     EXPECT_EQ(got.grids.size(), baked.map.grids.size());
-    EXPECT_EQ(got.triangle_maps, baked.map.triangle_maps);
+    EXPECT_EQ(got.grid_of_side, baked.map.grid_of_side);
     ASSERT_EQ(got.cuts.size(), baked.map.cuts.size());
     EXPECT_EQ(std::memcmp(got.cuts.data(), baked.map.cuts.data(), got.cuts.size() * sizeof(Cut)), 0);
     const auto refused = [&](const char* what, const auto& damage) {
@@ -204,7 +204,7 @@ TEST_F(MapFile, WithCutsRoundTripsAndIsRefusedWhenTheyLeadAstray) {
     refused("no number", [&](PhotonMap& m) { m.cuts[0].point.x = NAN; });
     refused("no direction", [&](PhotonMap& m) { m.cuts[0].normal.y = 1e30f; });
     refused("too many one after the other", [&](PhotonMap& m) {
-        const Cut next{m.cuts[0].point, no_map, m.cuts[0].normal, no_map};
+        const Cut next{m.cuts[0].point, no_grid, m.cuts[0].normal, no_grid};
         for (uint i = 0; i <= max_cuts_deep + 1; ++i) {
             if (i > 0) m.cuts.back().front = uint(m.cuts.size()) | cut_bit;
             m.cuts.push_back(next);
@@ -268,7 +268,7 @@ TEST_F(MapFile, WhatOnlyOneCheckRefusesIsNamed) {
     refused("it has no cells", [](PhotonMap& m) { m.cell_starts.clear(); });
     refused("the number of lamps", [](PhotonMap& m) { m.emitted.push_back(1); });
     refused("more grids of caustics than grids", [](PhotonMap& m) { m.caustic_grids = uint(m.grids.size()) + 1; });
-    refused("the number of triangles", [](PhotonMap& m) { m.triangle_maps.push_back(no_map); });
+    refused("the number of triangles", [](PhotonMap& m) { m.grid_of_side.push_back(no_grid); });
     refused("the record arrays differ", [](PhotonMap& m) { m.fluxes.pop_back(); });
     refused("its settings are not valid", [](PhotonMap& m) { m.settings.neighbour_angle_deg = 120; });
     const auto changed = [&](const char* named, size_t at, char byte) {

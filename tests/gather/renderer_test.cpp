@@ -50,7 +50,7 @@ PhotonMap no_photons() {
 /// Photons every centimetre on the front of the right part of the back wall: 1 lx per unit of the light's intensity.
 PhotonMap even_photons() {
     PhotonMap map = no_photons();
-    map.triangle_maps = {no_map, no_map, no_map, no_map, 0, no_map, 0, no_map};
+    map.grid_of_side = {no_grid, no_grid, no_grid, no_grid, 0, no_grid, 0, no_grid};
     SurfaceGrid grid{};
     grid.origin = vec3(0, -1, -4);
     grid.cell_size = 0.1f;

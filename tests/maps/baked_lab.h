@@ -5,7 +5,7 @@
 
 #include "benchmark/lab_scene.h"
 #include "maps/bake.h"
-#include "maps/plane_maps.h"
+#include "maps/plane_grids.h"
 #include "trace/ray_caster.h"
 
 namespace lw::test {
@@ -36,11 +36,11 @@ struct Node {
 template <class Visit>
 void for_each_node(const BakedLab& lab, const Visit& visit) {
     std::vector<uint> sides(lab.map.grids.size(), 0);
-    for (uint m : lab.map.triangle_maps)
-        if (m != no_map) ++sides[m];
-    for (size_t side = 0; side < lab.map.triangle_maps.size(); ++side) {
-        const uint m = lab.map.triangle_maps[side];
-        if (m == no_map || sides[m] > 1 || lab.map.grids[m].columns == 0) continue;
+    for (uint m : lab.map.grid_of_side)
+        if (m != no_grid && !is_cut(m)) ++sides[m];
+    for (size_t side = 0; side < lab.map.grid_of_side.size(); ++side) {
+        const uint m = lab.map.grid_of_side[side];
+        if (m == no_grid || is_cut(m) || sides[m] > 1) continue;
         const SurfaceGrid& grid = lab.map.grids[m];
         const auto [a, b, c] = lab.corners(side / 2);
         for (uint y = 0; y < grid.lattice.rows; ++y)

@@ -80,7 +80,7 @@ struct FloorLight {
                 const auto hit = baked.caster.nearest(at - origin, vec3(0, -1, 0));
                 const Surface s = estimator.surface_at(hit->triangle, hit->barycentrics);
                 Gathered sum{};
-                const auto place = estimator.place_on(estimator.map_of(hit->triangle, true), s.position);
+                const auto place = estimator.place_on_grid(estimator.grid_of(hit->triangle, true), s.position);
                 estimator.add_caustics(hit->triangle, true, 1, place, s, s.geometric_normal, s.normal, vec3(0, 1, 0),
                                        sum);
                 got[size_t(z / fine * squares + x / fine)] += precise_luminance(sum.irradiance) / (fine * fine);
@@ -144,7 +144,7 @@ TEST(CausticMap, TheLightOfCellsHoldsSmoothCausticsAsThePixelsGatherThem) {
         ASSERT_TRUE(hit);
         const Surface s = held.surface_at(hit->triangle, hit->barycentrics);
         const auto seen = held.see(hit->triangle, hit->barycentrics, s.position + s.geometric_normal);
-        if (seen.at.map == no_map || held.caustic_map_of(hit->triangle, seen.front) == no_map) continue;
+        if (seen.at.index == no_grid || held.caustic_grid_of(hit->triangle, seen.front) == no_grid) continue;
         const float left = held.caustics_left(seen.at);
         const double got = precise_luminance(held.estimate_at(seen).irradiance),
                      wanted = precise_luminance(full.estimate_at(seen).irradiance);

@@ -51,8 +51,8 @@ struct Errors {
 /// Of all nodes over the triangles of their map, for the kernel of a level.
 Errors errors_of(const test::BakedLab& lab, uint level) {
     std::vector<std::vector<size_t>> triangles(lab.map.grids.size());
-    for (size_t side = 0; side < lab.map.triangle_maps.size(); ++side)
-        if (const uint m = lab.map.triangle_maps[side]; m != no_map) triangles[m].push_back(side / 2);
+    for (size_t side = 0; side < lab.map.grid_of_side.size(); ++side)
+        if (const uint m = lab.map.grid_of_side[side]; m != no_grid && !is_cut(m)) triangles[m].push_back(side / 2);
     Errors errors;
     for (size_t m = 0; m < lab.map.grids.size(); ++m) {
         const SurfaceGrid& grid = lab.map.grids[m];

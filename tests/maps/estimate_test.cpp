@@ -44,7 +44,7 @@ bool same_bytes(const PhotonMap& a, const PhotonMap& b) {
         return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0);
     };
     return same(a.places, b.places) && same(a.fluxes, b.fluxes) && same(a.directions, b.directions) &&
-           same(a.grids, b.grids) && same(a.cell_starts, b.cell_starts) && same(a.triangle_maps, b.triangle_maps);
+           same(a.grids, b.grids) && same(a.cell_starts, b.cell_starts) && same(a.grid_of_side, b.grid_of_side);
 }
 
 TEST(Bake, GivesTheSameBytesAtOneAndTwoThreads) {
@@ -138,11 +138,11 @@ TEST(Estimate, ExactModeEqualsBruteForce) {
     for (size_t i = 0; i < baked.photons.records.size(); i += 997) {
         const Photon& p = baked.photons.records[i];
         const Surface s = estimator.surface_at(p.triangle, {0.31f, 0.27f});
-        const uint map = baked.map.map_at(baked.map.triangle_maps[2 * p.triangle + p.side()], s.position);
+        const uint map = baked.map.behind_cuts(baked.map.grid_of_side[2 * p.triangle + p.side()], s.position);
         const float side = p.side() ? -1.0f : 1.0f;
-        if (map == no_map) continue;  // a piece that no photon reaches
-        const Gathered got = estimator.gather_photons(estimator.place_on(map, s.position), s, s.geometric_normal * side,
-                                                      s.normal * side, s.normal * side);
+        if (map == no_grid) continue;  // a piece that no photon reaches
+        const Gathered got = estimator.gather_photons(estimator.place_on_grid(map, s.position), s,
+                                                      s.geometric_normal * side, s.normal * side, s.normal * side);
         const Gathered expected = brute_force(baked, map, s.position, 50);
         EXPECT_NEAR(got.radius, expected.radius, 1e-5f * expected.radius);
         EXPECT_NEAR(got.irradiance.y, expected.irradiance.y, 1e-4f * expected.irradiance.y + 1e-6f);
@@ -189,7 +189,7 @@ TEST(Estimate, ExactDirectLightOfAPointLampFollowsTheInverseSquareAndCosineLaws)
     const Scene scene = load_gltf(file_in_data("cube.gltf"));
     const Bvh bvh = build_bvh(scene);
     PhotonMap dark;
-    dark.triangle_maps.assign(2 * scene.triangles.size(), no_map);
+    dark.grid_of_side.assign(2 * scene.triangles.size(), no_grid);
     dark.settings.radius = 1;
     const std::vector<vec3> weights = light_powers(scene, {});
     const PhotonEstimator estimator(scene, dark, weights, {}, bvh);

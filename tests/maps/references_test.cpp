@@ -1,4 +1,4 @@
-// Which maps refer to which photons.
+// Which patches refer to which photons.
 #include "maps/references.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(References, AreAsManyAsThoseOfEachPhotonByItself) {
     EXPECT_DOUBLE_EQ(double(room.references.photons.size()) / double(room.photons.records.size()), each);
 }
 
-TEST(References, HoldEveryPhotonAndNoneTwiceInAMap) {
+TEST(References, HoldEveryPhotonAndNoneTwiceInAPatch) {
     const Room room;
     std::vector<uint> times(room.photons.records.size(), 0);
     ASSERT_EQ(room.references.starts.size(), room.partition.patches.count + 1);
@@ -54,7 +54,7 @@ TEST(References, AreFewOncePatchesAreTightened) {
     for (size_t p = 0; p < tight.radii.size(); ++p) ASSERT_LE(tight.radii[p], room.partition.radii[p]) << p;
 }
 
-TEST(References, AreWithinTheRadiusOfTheirMap) {
+TEST(References, AreWithinTheRadiusOfTheirPatch) {
     const Room room;
     for (size_t p = 0; p < room.partition.patches.count; ++p)
         for (uint64_t i = room.references.starts[p]; i < room.references.starts[p + 1]; ++i) {

@@ -23,8 +23,8 @@ TEST(Visibility, SurroundingsOfANodeAreTheNineNodesAroundIt) {
                 uint around = 0;
                 for (int y = std::max(i / columns - 1, 0); y <= std::min(i / columns + 1, rows - 1); ++y)
                     for (int x = std::max(i % columns - 1, 0); x <= std::min(i % columns + 1, columns - 1); ++x)
-                        around |= bits_of(lab.map, lamps, grid.lattice.first_node + uint(y * columns + x), lamp) >>
-                                  own_shift;
+                        around |=
+                            bits_of(lab.map, lamps, grid.lattice.first_node + uint(y * columns + x), lamp) >> own_shift;
                 ASSERT_EQ(bits_of(lab.map, lamps, grid.lattice.first_node + uint(i), lamp) & 3u, around) << i;
             }
     }

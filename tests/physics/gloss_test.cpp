@@ -165,7 +165,7 @@ TEST(Gloss, ALampThatIsHalfThereSendsHalfItsLight) {
         const std::vector<vec3> weights = light_powers(scene, {});
         PhotonMap dark;
         dark.settings.radius = 0.1f;
-        dark.triangle_maps.assign(2 * scene.triangles.size(), no_map);
+        dark.grid_of_side.assign(2 * scene.triangles.size(), no_grid);
         const Bvh bvh = build_bvh(scene);
         const PhotonEstimator estimator(scene, dark, weights, {gather_mode_smooth, 50, 64}, bvh);
         double sum = 0;

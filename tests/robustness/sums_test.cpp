@@ -27,7 +27,7 @@ struct EvenPhotons {
         map.settings.radius = grid.radius;
         map.flux_scale = 1;
         map.grids = {grid};
-        map.triangle_maps.assign(2 * scene.triangles.size(), 0);
+        map.grid_of_side.assign(2 * scene.triangles.size(), 0);
         const uint step = 65536 / side;
         for (uint row = 0; row < grid.rows; ++row)
             for (uint column = 0; column < grid.columns; ++column) {

@@ -22,7 +22,7 @@ std::vector<Query> flat_queries(const BakedCase& baked, size_t stride) {
          visible_points(baked.scene, *baked.caster, baked.map, baked.scene.cameras[0], side, side)) {
         const std::string& object = baked.scene.object_names[baked.scene.triangle_objects[p.triangle]];
         const bool flat = object == "walls" || object == "furniture";
-        if (flat && p.map != no_map && seen++ % stride == 0) queries.push_back(p.query());
+        if (flat && p.grid != no_grid && seen++ % stride == 0) queries.push_back(p.query());
     }
     return queries;
 }
@@ -38,8 +38,8 @@ std::vector<NearestPhotons::Entry> sorted_entries(const NearestPhotons& nearest)
     return entries;
 }
 
-/// Positions in a map are steps of its quantum: everything is compared within two steps' diagonal.
-float tolerance_of(const PhotonMap& map, const Query& query) { return 2 * length(map.grids[query.map].quantum); }
+/// Positions in a grid are steps of its quantum: everything is compared within two steps' diagonal.
+float tolerance_of(const PhotonMap& map, const Query& query) { return 2 * length(map.grids[query.grid].quantum); }
 
 /// Whether each photon of `a` has one of `b` at its place; photons as far as the k-th may have changed places.
 template <class A, class B>
@@ -63,11 +63,11 @@ bool same_set(const Query& query, const A& a, const std::vector<NearestPhotons::
 template <class Structure>
 Agreement agreement_of(const BakedCase& baked, const std::vector<Query>& queries, const Structure& structure,
                        size_t stride) {
-    const MapGridSearch grid(baked.map);
+    const GridSearch grid(baked.map);
     NearestPhotons ours, theirs;
     Agreement agreement;
     for (size_t i = 0; i < queries.size(); i += stride) {
-        const float radius = baked.map.grids[queries[i].map].radius;
+        const float radius = baked.map.grids[queries[i].grid].radius;
         ours.start(wanted, radius * radius), theirs.start(wanted, radius * radius);
         grid.find(queries[i], ours), structure.find(queries[i], theirs);
         const auto a = sorted_entries(ours), b = sorted_entries(theirs);
@@ -90,7 +90,7 @@ double search_ms(const BakedCase& baked, const std::vector<Query>& queries, cons
     NearestPhotons nearest;
     return median_ms(runs, [&] {
         for (const Query& query : queries) {
-            const float radius = baked.map.grids[query.map].radius;
+            const float radius = baked.map.grids[query.grid].radius;
             nearest.start(wanted, radius * radius);
             structure.find(query, nearest);
         }
@@ -134,10 +134,10 @@ std::vector<Row> measure_count(const Bench& bench, uint64_t photons) {
     const float cell = mean_radius(baked.scene, cloud.positions.size());
     std::vector<Row> rows;
     rows.push_back(measure_structure(bench, baked, queries, "2D grid of the maps",
-                                     [&] { return std::make_unique<MapGridSearch>(baked.map); }));
+                                     [&] { return std::make_unique<GridSearch>(baked.map); }));
     rows.back()["build_s"] = baked.cost.maps.seconds;
     rows.push_back(measure_structure(bench, baked, queries, "2D kd-tree per map",
-                                     [&] { return std::make_unique<MapTreeSearch>(baked.map); }));
+                                     [&] { return std::make_unique<GridTreeSearch>(baked.map); }));
     rows.push_back(measure_structure(bench, baked, queries, "3D kd-tree",
                                      [&] { return std::make_unique<GlobalTreeSearch>(cloud, baked.map); }));
     rows.push_back(measure_structure(bench, baked, queries, "3D hash grid",

@@ -15,7 +15,7 @@ namespace {
 /// Photons tested at a point. The exact search reads each accepted photon once more when it is added.
 double candidates(const CountingEstimator& estimator, const VisiblePoint& p, bool exact) {
     const uint64_t before = estimator.counted.of(Record::photon);
-    const Gathered sum = estimator.gather_photons(estimator.place_on(p.map, p.surface.position), p.surface,
+    const Gathered sum = estimator.gather_photons(estimator.place_on_grid(p.grid, p.surface.position), p.surface,
                                                   p.geometric_normal, p.shading_normal, p.to_view);
     return double(estimator.counted.of(Record::photon) - before) - (exact ? double(sum.photons) : 0.0);
 }

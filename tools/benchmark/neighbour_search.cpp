@@ -11,7 +11,7 @@
 
 namespace lw {
 
-struct MapTreeSearch::Points {
+struct GridTreeSearch::Points {
     const vec3* local;
     size_t count;
     size_t kdtree_get_point_count() const { return count; }
@@ -43,8 +43,8 @@ using Floats = float __attribute__((vector_size(16)));
 using Words = int __attribute__((vector_size(16)));
 Floats to_floats(Words w) { return __builtin_convertvector(w, Floats); }
 
-/// What a photon of the whole scene must pass to count at a query: the rules by which a map refers to it
-/// (engine/maps/references.cpp, with the distance to the query for that to the map) and by which the gather takes it.
+/// What a photon of the whole scene must pass to count at a query: the rules by which a patch refers to it
+/// (engine/maps/references.cpp, with the distance to the query for that to the patch) and by which the gather takes it.
 struct Rules {
     const Query& query;
     float cos_angle, max_radius;
@@ -126,13 +126,13 @@ void NearestPhotons::select(size_t found_count) {
     if (full()) bound_ = entries_.front().distance_squared;
 }
 
-vec3 MapGridSearch::position(const Query& query, uint index) const {
-    const SurfaceGrid& grid = map_.grids[query.map];
+vec3 GridSearch::position(const Query& query, uint index) const {
+    const SurfaceGrid& grid = map_.grids[query.grid];
     return position_of(grid, place_in_grid(map_.places[index], grid));
 }
 
 /// The radius within which somewhat more than the wanted photons lie, from the counts of a growing window of cells.
-float MapGridSearch::expected_radius(const SurfaceGrid& grid, vec3 local, uint wanted) const {
+float GridSearch::expected_radius(const SurfaceGrid& grid, vec3 local, uint wanted) const {
     const int columns = int(grid.columns), rows = int(grid.rows);
     const ivec2 cell = clamp(ivec2(floor(vec2(local) / grid.cell_size)), ivec2(0), ivec2(columns - 1, rows - 1));
     for (int ring = first_ring;; ++ring) {
@@ -150,14 +150,14 @@ float MapGridSearch::expected_radius(const SurfaceGrid& grid, vec3 local, uint w
     }
 }
 
-struct MapGridSearch::Disc {
+struct GridSearch::Disc {
     const SurfaceGrid& grid;
     vec3 local;
     float radius;
 };
 
 /// Writes all photons within the radius, row of cells after row, and returns their number.
-size_t MapGridSearch::collect(const Disc& disc, NearestPhotons& nearest) const {
+size_t GridSearch::collect(const Disc& disc, NearestPhotons& nearest) const {
     const auto& [grid, local, radius] = disc;
     const float r2 = radius * radius, size = grid.cell_size;
     size_t count = 0;
@@ -177,8 +177,8 @@ size_t MapGridSearch::collect(const Disc& disc, NearestPhotons& nearest) const {
 }
 
 /// Four photons at a time, then the rest.
-NearestPhotons::Entry* MapGridSearch::collect_run(const Disc& disc, uint first, uint last,
-                                                  NearestPhotons::Entry* found) const {
+NearestPhotons::Entry* GridSearch::collect_run(const Disc& disc, uint first, uint last,
+                                               NearestPhotons::Entry* found) const {
     const auto& [grid, local, radius] = disc;
     const float radius_squared = radius * radius;
     const float tolerance = 0.01f * map_.settings.radius;  // of on_same_surface(), written out for vectors
@@ -209,8 +209,8 @@ NearestPhotons::Entry* MapGridSearch::collect_run(const Disc& disc, uint first, 
 }
 
 /// Looks as far as the cells say, farther if that was not far enough, and selects.
-void MapGridSearch::find(const Query& query, NearestPhotons& nearest) const {
-    const SurfaceGrid& grid = map_.grids[query.map];
+void GridSearch::find(const Query& query, NearestPhotons& nearest) const {
+    const SurfaceGrid& grid = map_.grids[query.grid];
     const vec3 local = position_in_grid(grid, query.position);
     const float farthest = std::sqrt(nearest.bound());
     Disc disc{grid, local, std::min(expected_radius(grid, local, nearest.wanted()), farthest)};
@@ -222,7 +222,7 @@ void MapGridSearch::find(const Query& query, NearestPhotons& nearest) const {
     nearest.select(count);
 }
 
-MapTreeSearch::MapTreeSearch(const PhotonMap& map)
+GridTreeSearch::GridTreeSearch(const PhotonMap& map)
     : map_(map), local_(map.places.size()), points_(map.grids.size()), trees_(map.grids.size()) {
     parallel_for(map.grids.size(), [&](size_t m) {
         const SurfaceGrid& grid = map.grids[m];
@@ -235,22 +235,22 @@ MapTreeSearch::MapTreeSearch(const PhotonMap& map)
     });
 }
 
-MapTreeSearch::~MapTreeSearch() = default;
+GridTreeSearch::~GridTreeSearch() = default;
 
 /// The tree knows the distance in the plane; the height is added, so that the 3D distance decides.
-void MapTreeSearch::find(const Query& query, NearestPhotons& nearest) const {
-    const SurfaceGrid& grid = map_.grids[query.map];
+void GridTreeSearch::find(const Query& query, NearestPhotons& nearest) const {
+    const SurfaceGrid& grid = map_.grids[query.grid];
     const vec3 local = position_in_grid(grid, query.position);
-    const vec3* points = points_[query.map]->local;
-    search(*trees_[query.map], &local.x, nearest, [&](uint index, float& distance_squared) {
+    const vec3* points = points_[query.grid]->local;
+    search(*trees_[query.grid], &local.x, nearest, [&](uint index, float& distance_squared) {
         const float height = points[index].z - local.z;
         distance_squared += height * height;
         return on_same_surface(height, distance_squared, map_.settings.radius);
     });
 }
 
-vec3 MapTreeSearch::position(const Query& query, uint index) const {
-    return position_of(map_.grids[query.map], points_[query.map]->local[index]);
+vec3 GridTreeSearch::position(const Query& query, uint index) const {
+    return position_of(map_.grids[query.grid], points_[query.grid]->local[index]);
 }
 
 PhotonCloud::PhotonCloud(const Scene& scene, const std::vector<Photon>& photons)

@@ -1,5 +1,5 @@
-// Exact k nearest photons by four structures, for Figure 6 and Table 1: the 2D grid of our maps, a 2D kd-tree per map,
-// a global 3D kd-tree and a 3D hash grid. All use the same rules: side and orientation (60 degrees, by the maps'
+// Exact k nearest photons by four structures, for Figure 6 and Table 1: the 2D grids of our patches, a 2D kd-tree per
+// grid, a global 3D kd-tree and a 3D hash grid. All use the same rules: side and orientation (60 degrees, by the maps'
 // references or by a test), height above the surface, the radius of the map. Trees and hash grid keep a bounded
 // max-heap, without which they could not end early; the 2D grid knows from its cells how far to look, and selects once.
 // kd-trees are nanoflann's (Blanco & Rai 2014).
@@ -17,7 +17,7 @@ namespace lw {
 struct Query {
     vec3 position;
     vec3 normal;  // geometric, to the viewer
-    uint map;     // of the seen side of the triangle; not no_map
+    uint grid;    // of the seen side of the triangle; not no_grid
 };
 
 /// The k nearest so far; indices belong to the structure that was searched.
@@ -50,10 +50,10 @@ class NearestPhotons {
     std::vector<Entry> entries_, candidates_;
 };
 
-/// The 2D grid of each map, searched on the arrays that the file and the GPU hold.
-class MapGridSearch {
+/// The 2D grid of each patch, searched on the arrays that the file and the GPU hold.
+class GridSearch {
   public:
-    explicit MapGridSearch(const PhotonMap& map) : map_(map) {}
+    explicit GridSearch(const PhotonMap& map) : map_(map) {}
     void find(const Query& query, NearestPhotons& nearest) const;
     vec3 position(const Query& query, uint index) const;
 
@@ -66,11 +66,11 @@ class MapGridSearch {
     const PhotonMap& map_;
 };
 
-/// A 2D kd-tree over u and v of each map's references.
-class MapTreeSearch {
+/// A 2D kd-tree over u and v of each grid's references.
+class GridTreeSearch {
   public:
-    explicit MapTreeSearch(const PhotonMap& map);
-    ~MapTreeSearch();
+    explicit GridTreeSearch(const PhotonMap& map);
+    ~GridTreeSearch();
     void find(const Query& query, NearestPhotons& nearest) const;
     vec3 position(const Query& query, uint index) const;
 

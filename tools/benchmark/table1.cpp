@@ -28,8 +28,8 @@ void find_all(const PhotonMap& map, const std::vector<VisiblePoint>& points, con
         [&](size_t i) {
             thread_local NearestPhotons nearest;
             found.counts[i] = 0;
-            if (points[i].map == no_map) return;
-            const float radius = map.grids[points[i].map].radius;
+            if (points[i].grid == no_grid) return;
+            const float radius = map.grids[points[i].grid].radius;
             nearest.start(wanted, radius * radius);
             structure.find(points[i].query(), nearest);
             found.radius_squared[i] = std::max(nearest.bound(), 1e-12f * radius * radius);
@@ -97,7 +97,7 @@ Row measure_tree(const Subject& subject, const PhotonEstimator& estimator) {
 }
 
 Row measure_maps(const Subject& subject, const PhotonEstimator& estimator) {
-    const MapGridSearch grids(subject.baked.map);
+    const GridSearch grids(subject.baked.map);
     return measure_on_cpu(subject, "triangle maps, photons hold all light", grids,
                           [&](uint i, float kernel, const VisiblePoint& p, Gathered& sum) {
                               estimator.add_photon(i, estimator.photon_place(i), kernel / subject.baked.map.flux_scale,

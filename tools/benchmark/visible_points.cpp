@@ -18,7 +18,7 @@ std::vector<VisiblePoint> visible_points(const Scene& scene, const RayCaster& ca
         const float side = back ? -1.0f : 1.0f;
         points.push_back({s, side * s.geometric_normal, side * s.normal, -direction, pixel, hit->triangle,
                           hit->barycentrics,
-                          map.map_at(map.triangle_maps[2 * hit->triangle + (back ? 1 : 0)], s.position)});
+                          map.behind_cuts(map.grid_of_side[2 * hit->triangle + (back ? 1 : 0)], s.position)});
     }
     return points;
 }

@@ -13,9 +13,9 @@ struct VisiblePoint {
     uint pixel;
     uint triangle;
     vec2 barycentrics;
-    uint map;  // of the seen side, or no_map
+    uint grid;  // of the seen side, or no_grid
 
-    Query query() const { return {surface.position, geometric_normal, map}; }
+    Query query() const { return {surface.position, geometric_normal, grid}; }
 };
 
 /// The points through pixel centres, in image order; pixels that see nothing are left out.

@@ -1,4 +1,4 @@
-#include "maps/plane_maps.h"
+#include "maps/plane_grids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +21,11 @@ bool is_matte(const Material& m) {
 
 }  // namespace
 
-PlaneMaps::PlaneMaps(const Scene& scene, const SurfaceGrids& surfaces)
+PlaneGrids::PlaneGrids(const Scene& scene, const SurfaceGrids& surfaces)
     : plane_(surfaces.grids.size(), 1), matte_(surfaces.grids.size(), 1), heights_(surfaces.grids.size(), -1e30f) {
     std::vector<float> lowest(surfaces.grids.size(), 1e30f);
-    for (size_t side = 0; side < surfaces.triangle_maps.size(); ++side) {
-        surfaces.for_each_map(surfaces.triangle_maps[side], [&](uint m) {
+    for (size_t side = 0; side < surfaces.grid_of_side.size(); ++side) {
+        surfaces.for_each_grid(surfaces.grid_of_side[side], [&](uint m) {
             const SurfaceGrid& grid = surfaces.grids[m];
             if (matte_[m] && !is_matte(scene.material_of(uint(side / 2)))) matte_[m] = 0;
             for (int c = 0; c < 3; ++c) {

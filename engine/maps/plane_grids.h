@@ -1,4 +1,4 @@
-// Which maps are plane: a lamp's light on them follows from the lattice alone.
+// Which grids lie on plane patches: a lamp's light on them follows from the lattice alone.
 #pragma once
 #include <vector>
 
@@ -7,12 +7,12 @@
 
 namespace lw {
 
-class PlaneMaps {
+class PlaneGrids {
   public:
     /// The grids have their lattices.
-    PlaneMaps(const Scene& scene, const SurfaceGrids& surfaces);
+    PlaneGrids(const Scene& scene, const SurfaceGrids& surfaces);
 
-    /// True when all triangles of map m lie in one plane, to 2 % of the step of its lattice.
+    /// True when all triangles of the patch of grid m lie in one plane, to 2 % of the step of its lattice.
     bool is_plane(size_t m) const { return plane_[m] != 0; }
     /// True when, besides, direct light of small lamps looks the same from all sides, and shading normals are the
     /// plane's.
@@ -25,7 +25,7 @@ class PlaneMaps {
     std::vector<float> heights_;
 };
 
-/// The point of a plane map `cells` steps from its lattice's first node.
+/// The point of a plane patch `cells` steps from its lattice's first node.
 vec3 point_on_lattice(const SurfaceGrid& grid, vec2 cells, float height);
 
 }  // namespace lw
