@@ -1,16 +1,16 @@
-// Light that lamps send by mirrors and smooth glass alone, from grids of its own: gathered at
-// each point with a small bandwidth, so that it stays sharp; the cached mode finds smooth caustics in the light of its
-// cells. One text for C++ and GLSL; needs gather.glsl, the functions caustic_grid_of, cell_word and the constants
-// has_caustics, has_smooth_caustics, has_visible_lamps, light_count.
+// Caustics: light that reaches a surface by mirrors and smooth glass alone. Their photons are in grids of their own and
+// are gathered at each point with a small bandwidth, so that they stay sharp. In the cached mode smooth caustics are in
+// the light of the cells. One text for C++ and GLSL; needs gather.glsl, the functions caustic_grid_of, cell_word and
+// the constants has_caustics, has_smooth_caustics, has_visible_lamps, light_count.
 
-/// The part of the caustics at a place that the light of its cell does not hold.
+/// The part of the caustics at a place, 0 to 1, that the light of its cell does not hold.
 float caustics_left(GridPlace at) LW_MEMBER {
     if (!has_smooth_caustics || !has_visible_lamps || gather_mode != gather_mode_cached || at.index == no_grid)
         return 1.0f;
     return 1.0f - corners_set(cell_word(at.cell * cell_words(light_count, true)), at.f);
 }
 
-/// Adds the part `left` of the caustic light at a surface of `triangle` whose other light comes from the place `at`.
+/// Adds the part `left` of the caustic light at surface `s` of a triangle. `at`: the place whose coverage is used.
 void add_caustics(uint triangle, bool front, float left, GridPlace at, Surface s, vec3 n_geometric, vec3 n_shading,
                   vec3 to_view, LW_INOUT(Gathered) light) LW_MEMBER {
     uint own = left > 0.0f ? behind_cuts(caustic_grid_of(triangle, front), s.position) : no_grid;

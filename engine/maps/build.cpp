@@ -30,9 +30,9 @@ float automatic_radius(const Scene& scene, uint64_t photons) {
 
 namespace {
 
-/// Refuses a radius so small that the lattices, which follow it, would take hours and all the memory.
+/// Throws Error for a radius so small that the lattices, whose steps follow it, would take hours and all memory.
 void check_radius(const Scene& scene, float radius) {
-    constexpr double max_discs = 4e6;  // of this radius, on all surfaces: 400 million samples of their coverage
+    constexpr double max_discs = 4e6;  // most discs of this radius on all surfaces: 400 million samples of coverage
     const double least = std::sqrt(area_of(scene) / (double(lw_pi) * max_discs));
     if (double(radius) >= least) return;
     char text[32];
@@ -41,24 +41,24 @@ void check_radius(const Scene& scene, float radius) {
                 " m or auto");
 }
 
-/// Brings the brightest photon to 2^12, so that RGB9E5 keeps 28 powers of two below it.
+/// The scale that brings the brightest photon to at most 2^12, so that RGB9E5 has 28 powers of two below it.
 float flux_scale_of(const std::vector<Photon>& photons) {
     float top = 0;
     for (const Photon& p : photons) top = std::max({top, p.flux.x, p.flux.y, p.flux.z});
     return top > 0 ? std::exp2(12 - std::ceil(std::log2(top))) : 1.0f;
 }
 
-/// The settings with the radius that is used.
+/// The settings with the radius that the bake uses.
 BakeSettings with_radius(const Scene& scene, const Photons& photons, BakeSettings settings) {
     if (settings.radius > 0 && !photons.records.empty())
         check_radius(scene, settings.radius);
     else if (!(settings.radius > 0))
         settings.radius = automatic_radius(scene, photons.records.size());
-    settings.radius = std::min(settings.radius, scene.size());  // nothing is farther
+    settings.radius = std::min(settings.radius, scene.size());  // no two points are farther apart
     return settings;
 }
 
-/// Photons that came by mirrors and glass alone, and all others.
+/// Caustic photons, and all others.
 struct PartedPhotons {
     std::vector<Photon> caustic, others;
 };
@@ -70,12 +70,12 @@ PartedPhotons part_caustics(const std::vector<Photon>& photons) {
     return parted;
 }
 
-/// Puts the grids of caustics behind those of the map.
+/// Appends the grids of caustics to those of the map.
 void add_caustics(PhotonGrids caustics, PhotonMap& map) {
     map.caustic_grids = uint(caustics.surfaces.grids.size());
     map.caustic_cuts = uint(caustics.surfaces.cuts.size());
     std::vector<uint> of_side = append_grids(std::move(caustics), map, map);
-    for (uint& id : of_side) ++id;  // none: 0
+    for (uint& id : of_side) ++id;  // so that 0 means none
     map.caustic_sides = SparseArray(of_side);
 }
 
@@ -99,7 +99,7 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     auto [surfaces, records] = sort_into_grids({scene, caster, partition, others}, packing);
     Lattice lattice = lay_lattice(scene, caster, partition, std::move(surfaces));
 
-    std::vector<uint> visible_lamps;  // none where photons hold all light
+    std::vector<uint> visible_lamps;  // empty when photons hold all light
     std::vector<ShadowMask> shadow_masks;
     if (!settings.direct_in_photons) {
         visible_lamps = find_visibility(scene, caster, lattice);

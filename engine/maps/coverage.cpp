@@ -49,7 +49,7 @@ class GridSamples {
         }
     }
 
-    /// Sum of area x kernel at `local`, for the kernels of all levels.
+    /// The sum over samples of area x kernel at the point `local`, for the kernels of all levels: the coverage.
     CoverageLevels sum_kernels(vec3 local, float max_radius) const {
         CoverageLevels sums{};
         const int x0 = std::max(column(local.x - radius_), 0), x1 = std::min(column(local.x + radius_), columns_ - 1);
@@ -70,7 +70,7 @@ class GridSamples {
         return size_t(std::min(row(s.y), rows_ - 1)) * size_t(columns_) + size_t(std::min(column(s.x), columns_ - 1));
     }
 
-    /// Without branches, in vectors: a run of samples, then one level after the other.
+    /// Adds a run of samples, one level after the other, without branches, so that the loops become vector code.
     LW_WIDE_VECTORS void add_run(uint first, uint count, vec3 local, float max_radius, CoverageLevels& sums) const {
         std::array<float, run_length> squared{}, areas{};
         const float *u = &u_[first], *v = &v_[first], *h = &h_[first], *area = &area_[first];
@@ -104,7 +104,8 @@ uint pack_levels(const CoverageLevels& levels) {
     return bits;
 }
 
-/// Counts the coverage of some nodes of each grid, nodes_of_grid[m] from its first, from samples around them.
+/// Computes the coverage of some nodes of each grid from the samples around them. nodes_of_grid[m]: indices of the
+/// nodes of grid m, counted from its first node.
 void sample_coverage(const CoverageInput& input, const std::vector<std::vector<uint>>& nodes_of_grid,
                      const std::vector<Photon>& samples, std::vector<CoverageLevels>& coverage) {
     const PatchGrids& surfaces = input.nodes.surfaces;
@@ -124,19 +125,20 @@ void sample_coverage(const CoverageInput& input, const std::vector<std::vector<u
     });
 }
 
-/// Writes the coverage of the nodes of grid m that has a closed form; returns the other nodes, from its first.
+/// Writes the coverage of those nodes of grid m for which it has a closed form. Returns the indices of the others,
+/// counted from its first node.
 std::vector<uint> cover_flat_nodes(const CoverageInput& input, size_t m, std::vector<CoverageLevels>& coverage) {
     const PatchGrids& surfaces = input.nodes.surfaces;
     const SurfaceLattice& lattice = surfaces.grids[m].lattice;
     if (input.partition.shapes[surfaces.patches[m]].outline.empty())
         return find_flat_coverage(input, m, &coverage[lattice.first_node]);
-    std::vector<uint> others;  // walls stand around it
+    std::vector<uint> others;  // the patch is a piece between walls: all its nodes are sampled
     for (uint i = 0; i < lattice.columns * lattice.rows; ++i)
         if (input.nodes.points[lattice.first_node + i].exists()) others.push_back(i);
     return others;
 }
 
-/// What samples are wanted for: the neighbourhoods of these nodes of each grid.
+/// Which samples are needed for these nodes of each grid.
 WantedSamples samples_for(const CoverageInput& input, const std::vector<std::vector<uint>>& nodes_of_grid) {
     const PatchGrids& surfaces = input.nodes.surfaces;
     WantedSamples wanted{input.partition, std::vector<char>(input.partition.patches.count, 0),

@@ -1,5 +1,6 @@
-// How much of a kernel lies on surface that light can reach. Density estimates are divided by it, so that edges,
-// corners and the feet of furniture neither darken nor glow (boundary bias; Jensen 2001, section 7.4).
+// Coverage: the part of a kernel that lies on surface where light can arrive. Density estimates are divided by it, so
+// that they are neither too dark nor too bright at edges, in corners and at the feet of furniture (boundary bias;
+// Jensen 2001, section 7.4).
 #pragma once
 #include <vector>
 
@@ -7,8 +8,8 @@
 
 namespace lw {
 
-/// The coverage of all nodes, as the map keeps it: in closed form where the ground is plane, from samples elsewhere,
-/// one every 0.03 R2 (26 under a kernel of R/2).
+/// The coverage of all nodes, one word of four levels each (see unpack_coverage()). In closed form where the ground is
+/// plane, elsewhere from samples of the surfaces: one every 0.03 R^2, so 26 under a kernel of radius R/2.
 std::vector<uint> find_coverage(const CoverageInput& input);
 
 }  // namespace lw

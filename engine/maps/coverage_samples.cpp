@@ -15,10 +15,11 @@ namespace {
 
 constexpr double samples_of_patch = 64;
 
-/// The area a sample of each triangle stands for: at most `area`, and a patch has at least samples_of_patch.
+/// For each triangle the area, m2, that one sample stands for: at most `area`, and so little that its patch gets at
+/// least samples_of_patch.
 std::vector<float> areas_of_samples(const Scene& scene, const Patches& patches, float area) {
     std::vector<double> patch_areas(patches.count, 0),
-        cut_areas(patches.cuts.size(), 0);  // of the whole when it is cut
+        cut_areas(patches.cuts.size(), 0);  // per cut: the area of the whole patch
     const auto area_of_side = [&](size_t side) -> double& {
         const uint id = patches.of_side[side];
         return is_cut(id) ? cut_areas[id & ~cut_bit] : patch_areas[id];
@@ -76,7 +77,8 @@ std::vector<char> WantedSamples::sides() const {
         const auto all = partition.neighbours.of(patch);
         near[patch] = is_wanted[patch] || std::any_of(all.begin(), all.end(), [&](uint p) { return is_wanted[p]; });
     }
-    for (uint patch : patches.of_side) wanted.push_back(is_cut(patch) || near[patch]);  // a cut: its pieces
+    for (uint patch : patches.of_side)
+        wanted.push_back(is_cut(patch) || near[patch]);  // a cut may lead to a patch that needs samples
     return wanted;
 }
 

@@ -1,4 +1,4 @@
-// Samples of surfaces, from which the coverage of kernels is counted where it has no closed form.
+// Samples of surfaces, from which coverage is computed where it has no closed form.
 #pragma once
 #include <vector>
 
@@ -8,10 +8,11 @@
 
 namespace lw {
 
-/// The neighbourhoods of some points, as cells of space. Says yes to a few places beyond them.
+/// The set of places within a radius of some points, kept as hashed cells of space. contain() is true for all of them
+/// and for a few places beyond.
 class Neighbourhoods {
   public:
-    /// `radius` of them all, m.
+    /// `radius`: of all neighbourhoods, m.
     explicit Neighbourhoods(float radius) : radius_(radius), bits_(size_t(1) << 16) {}
     void add(vec3 point);
     bool contain(vec3 point) const;
@@ -24,26 +25,27 @@ class Neighbourhoods {
     std::vector<uint64_t> bits_;  // one per cell, by its hash
 };
 
-/// What the samples of surfaces are for.
+/// Which samples of surfaces are needed.
 struct WantedSamples {
     const Partition& partition;
-    std::vector<char> is_wanted;    // of each patch: whether it has nodes that need samples
+    std::vector<char> is_wanted;    // per patch: 1 when it has nodes that need samples
     Neighbourhoods neighbourhoods;  // of these nodes
 
-    /// False only when a sample there belongs to no patch that needs any.
+    /// True when a sample at this point of a side may be needed. False only when no patch that needs samples would
+    /// refer to it.
     bool contain(size_t side, vec3 position) const;
-    /// For each side of the triangles: false when contain() is, everywhere on it.
+    /// For each side of each triangle: 0 when contain() is false everywhere on it.
     std::vector<char> sides() const;
 };
 
 struct SampleSettings {
-    float area;       // m2 that a sample stands for
+    float area;       // m2 that a sample stands for, less on small patches
     float clearance;  // m
 };
 
-/// Evenly spread points on the sides of triangles, those that are wanted and without those that lie closer than
-/// the clearance under another surface all around: no light gets there. As photons whose flux is their area, or as
-/// little as gives a small patch its share.
+/// Evenly spread points on the sides of triangles, where they are wanted and not buried under another surface
+/// (is_buried() with settings.clearance). They are returned as photons whose flux is the area that the point stands
+/// for: settings.area, or less on small patches, so that each patch has enough points.
 std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted,
                                     SampleSettings settings);
 

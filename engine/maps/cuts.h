@@ -1,5 +1,5 @@
-// Walls on a patch: where other surfaces stand on a plane patch, it is cut along them, so that what lies on one side of
-// a wall never counts on the other. Each piece is a patch of its own; a patch that nothing stands on stays whole.
+// Cuts plane patches along the walls that stand on them, so that photons on one side of a wall never count on the
+// other. Each piece becomes a patch of its own; a patch on which nothing stands stays whole.
 #pragma once
 #include "maps/patches.h"
 

@@ -1,5 +1,6 @@
-// Coverage in closed form, where a lattice lies on plane ground: a few triangles in its plane that do not overlap, at
-// most walls across it, and nothing that could bury it. Most of a room is like that; the rest is sampled (coverage.h).
+// Coverage in closed form, for nodes on plane ground: a few triangles in one plane that do not overlap, with at most
+// walls across them and nothing that could bury them. Most nodes of a room are like that; the others are sampled
+// (coverage.h).
 #pragma once
 #include <array>
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace lw {
 
-/// What the coverage of nodes follows from; all of it must outlive the search.
+/// The input of find_coverage() and find_flat_coverage(), by reference.
 struct CoverageInput {
     const Scene& scene;
     const RayCaster& caster;
@@ -24,8 +25,8 @@ using CoverageLevels = std::array<float, coverage_levels>;
 /// largest.
 CoverageLevels integrate_kernels(const std::vector<vec2>& polygon, const CoverageLevels& radii);
 
-/// The coverage of the nodes of grid m where it has a closed form: coverage[i] is that of its node i. The others are
-/// left alone; their indices, from the first node of the grid, are returned.
+/// Computes the coverage of those nodes of grid m for which it has a closed form: coverage[i] is that of node i of the
+/// grid. Returns the indices of the other nodes, whose coverage is unchanged.
 std::vector<uint> find_flat_coverage(const CoverageInput& input, size_t m, CoverageLevels* coverage);
 
 /// The radii of the levels of a grid, m.

@@ -1,23 +1,23 @@
-// Reads the photons of a grid around a point on the CPU: the text of shaders/grid.glsl over records in memory.
+// Reads the photons of a grid around a point on the CPU: the text of shaders/grid.glsl over PhotonRecords.
 #pragma once
 #include "maps/gather_settings.h"
 #include "maps/photon_map.h"
 
 namespace lw {
 
-/// Records must outlive it.
+/// A read-only view of records, which must outlive it.
 struct GridReader {
     const PhotonRecords& records;
     float max_radius;  // largest search radius of the map, m
-    // Photons that bandwidth_from_counts() wants under a kernel.
+    // Photons that the disc of bandwidth_from_counts() should hold.
     uint neighbours = GatherSettings{}.neighbours;
 
     uint cell_start(uint cell) const { return records.cell_starts[cell]; }
 
 #include "shaders/grid.glsl"
 
-    /// Calls visit(reference, place, squared distance) for the photons of a grid within `radius` m of a point in its
-    /// frame that lie on the same surface.
+    /// Calls visit(reference, place, squared distance) for the photons of a grid that lie within `radius` m of a point
+    /// on the same surface. `local`: the point in the frame of the grid.
     template <class Visit>
     void visit_photons(const SurfaceGrid& grid, vec3 local, float radius, const Visit& visit) const {
         const vec3 reach(radius, radius, 0);

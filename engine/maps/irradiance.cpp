@@ -21,7 +21,7 @@ namespace {
 constexpr uint rays_to_mesh = 16;
 constexpr float max_record = 4096;
 
-/// Light at the nodes of one grid after another.
+/// Computes the light at the nodes of one grid at a time.
 class NodeLight {
   public:
     explicit NodeLight(const IrradianceInput& input)
@@ -55,8 +55,8 @@ class NodeLight {
   private:
     size_t index(uint lamp, uint node) const { return size_t(lamp) * nodes_.size() + node; }
 
-    /// What the photons bring to the nodes of a grid, smoothed: three planes per lamp. The weights of the smoothing are
-    /// those at the file's powers for all lamps alike, so that the result stays linear in the powers.
+    /// The light by photons at the nodes of a grid, smoothed: three planes (RGB) per lamp. All lamps are smoothed with
+    /// the same weights, those at the powers in the file, so that the result stays linear in the powers.
     LatticePlanes reflected_light(const SurfaceGrid& grid) const {
         const SurfaceLattice& lattice = grid.lattice;
         LatticePlanes light(lattice.columns, lattice.rows, 3 * lamps_), brightness(lattice.columns, lattice.rows, 1),
@@ -99,7 +99,7 @@ class NodeLight {
                std::max(unpack_coverage(coverage_[node], radius / grid.radius), min_coverage);
     }
 
-    /// Adds the light that comes straight from the meshes.
+    /// Adds the direct light of mesh lamps to the nodes of grid m.
     void add_direct(uint m, std::vector<vec3>& light) const {
         const SurfaceLattice& lattice = grids_[m].lattice;
         const uint count = lattice.columns * lattice.rows;
@@ -142,8 +142,8 @@ class NodeLight {
         return sum;
     }
 
-    /// A node under a piece of furniture takes the light of its neighbours in the open: the surface beside it is looked
-    /// up between the two.
+    /// The mean direct light of the neighbours of node i that are not buried. A buried node takes it, because the
+    /// surface beside the furniture is interpolated between the two.
     vec3 around(const SurfaceLattice& lattice, uint i, const std::vector<char>& buried, const std::vector<vec3>& direct,
                 uint lamp) const {
         const int columns = int(lattice.columns), x = int(i) % columns, y = int(i) / columns;
@@ -176,7 +176,7 @@ class NodeLight {
     GridReader cells_;
     Emitters emitters_;
     uint lamps_;
-    bool adds_meshes_;  // their direct light
+    bool adds_meshes_;  // adds the direct light of mesh lamps
 };
 
 }  // namespace

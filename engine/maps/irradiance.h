@@ -11,10 +11,10 @@ namespace lw {
 /// Irradiance of all nodes for lamp 0, then of all for lamp 1, ...
 struct NodeIrradiance {
     std::vector<uint> records;  // RGB9E5 of lux per unit intensity x scale
-    float scale = 1;            // so that the brightest fits
+    float scale = 1;            // chosen so that the brightest fits
 };
 
-/// What it follows from; all of it must outlive the search.
+/// The input of find_irradiance(), by reference.
 struct IrradianceInput {
     const Scene& scene;
     const RayCaster& caster;
@@ -23,9 +23,8 @@ struct IrradianceInput {
     const std::vector<uint>& visible_lamps;  // of find_visibility(); empty where photons hold all light
 };
 
-/// What the photons bring to the nodes, with the bandwidth of 300 photons, and the direct light of emissive meshes,
-/// whose shadows are soft, where photons do not hold it. That of point, spot and directional lamps is left to shadow
-/// rays.
+/// The irradiance of all nodes: by photons, with a bandwidth for 300 photons, and the direct light of emissive meshes
+/// when photons do not hold it. Direct light of point, spot and directional lamps is left to shadow rays.
 NodeIrradiance find_irradiance(const IrradianceInput& input);
 
 }  // namespace lw

@@ -1,4 +1,4 @@
-// The lattices over all patches that have photons, as one value: what light is computed at once, and looked up between.
+// The lattices over all patches that have photons: points at which light is computed once, to be interpolated between.
 #pragma once
 #include "maps/nodes.h"
 
@@ -7,7 +7,7 @@ namespace lw {
 struct Lattice {
     PatchGrids surfaces;           // the grids, each with its lattice
     float radius = 0;              // largest search radius, m
-    std::vector<NodePoint> nodes;  // those of a lattice begin at its first_node
+    std::vector<NodePoint> nodes;  // all nodes; those of a lattice begin at its first_node
     std::vector<uint> coverage;    // of each node, see unpack_coverage()
 };
 

@@ -28,7 +28,7 @@ struct SidesOfGrids {
     std::vector<uint> starts, sides;
 };
 
-/// Nodes along an edge of `size` m.
+/// The number of nodes along an edge of `size` m.
 uint nodes_along(float size, float spacing) {
     return uint(clamp(std::ceil(size / spacing), 1.0f, max_nodes_across)) + 1;
 }
@@ -44,8 +44,8 @@ SurfaceLattice fit_lattice(const PatchShape& shape, const SurfaceGrid& grid, flo
     return lattice;
 }
 
-/// The outline of a piece in the frame of its lattice, drawn in by so little that points on it lie on its own side of
-/// walls.
+/// The outline of a piece in the frame of its lattice, m. It is moved inwards a little, so that points on it lie on the
+/// piece's own side of walls.
 std::vector<vec2> outline_in(const PatchShape& shape, const SurfaceLattice& lattice) {
     std::vector<vec2> outline;
     vec2 middle(0);
@@ -61,7 +61,8 @@ std::vector<vec2> outline_in(const PatchShape& shape, const SurfaceLattice& latt
     return outline;
 }
 
-/// Weights of the second and third corner of the point of triangle abc (in 2D) nearest to the origin.
+/// The weights of the second and third corner for the point of triangle abc (in 2D) nearest to the origin. Sets
+/// `nearest` to that point.
 vec2 nearest_barycentrics(vec2 a, vec2 b, vec2 c, vec2& nearest) {
     const vec3 p = closest_point_on_triangle(vec3(0), vec3(a, 0), vec3(b, 0), vec3(c, 0));
     nearest = vec2(p.x, p.y);
@@ -72,8 +73,8 @@ vec2 nearest_barycentrics(vec2 a, vec2 b, vec2 c, vec2& nearest) {
     return clamp(vec2(v, w), vec2(0), vec2(1));
 }
 
-/// Offers one triangle side to the nodes around it; where a patch is cut, only what lies inside its `outline`, in the
-/// lattice's frame.
+/// Gives the nodes around a triangle side the nearest point on it, when that is nearer than the one they have. Where
+/// the patch is cut, only points inside its `outline`, in the lattice's frame, count.
 void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& locals, uint triangle,
                  const std::vector<vec2>& outline, std::vector<NodePoint>& nodes) {
     const std::array<vec2, 3> corners{vec2(locals[0]), vec2(locals[1]), vec2(locals[2])};
@@ -98,7 +99,7 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
             const float squared = dot(nearest, nearest);
             if (squared > farthest2) continue;
             const float distance2 =
-                squared < 1e-6f * dot(lattice.step, lattice.step) ? 0 : squared;  // over the surface
+                squared < 1e-6f * dot(lattice.step, lattice.step) ? 0 : squared;  // then the node lies over the surface
             const float height =
                 locals[0].z + weights.x * (locals[1].z - locals[0].z) + weights.y * (locals[2].z - locals[0].z);
             if (distance2 < point.distance2 || (distance2 == point.distance2 && height > point.height))

@@ -1,5 +1,5 @@
-// The nodes of the lattices: a static lattice over the surface of each patch that has a grid, whatever photons it has
-// (SurfaceLattice of shaders/photon_map.h). What a still scene allows to compute once is kept per node.
+// The nodes of the lattices. A lattice lies over each patch that has a grid and does not depend on its photons
+// (SurfaceLattice in shaders/photon_map.h).
 #pragma once
 #include <vector>
 
@@ -7,12 +7,12 @@
 
 namespace lw {
 
-/// The point of a patch's surface that a node stands for: the nearest one in projection along the grid's normal.
+/// The point of a patch that a node stands for: the nearest one in projection along the grid's normal.
 struct NodePoint {
     uint triangle = no_triangle;
     vec2 barycentrics{0};
     float distance2 = 1e30f;  // m2, in projection; 0 when the node lies over the surface
-    float height = -1e30f;    // m, over the grid's origin; where sheets overlap the highest is the one that is seen
+    float height = -1e30f;    // m, over the grid's origin; where surfaces overlap the highest is taken
 
     bool exists() const { return triangle != no_triangle; }
 };

@@ -12,10 +12,11 @@ using Outline = std::vector<vec2>;
 /// The convex hull of points (monotone chain, Andrew 1979).
 Outline hull_of(Outline points);
 
-/// The point of a convex outline nearest to `p`: itself when it lies inside.
+/// The point of the area inside a convex outline that is nearest to `p`: `p` itself when it lies inside.
 vec2 nearest_in_outline(const Outline& outline, vec2 p);
 
-/// `p` moved inwards from every side of a convex outline that is closer than `distance`.
+/// `p` moved inwards from every side of a convex outline that is closer than `distance` m, until it is that far from
+/// it.
 vec2 inside_outline(const Outline& outline, vec2 p, float distance);
 
 }  // namespace lw

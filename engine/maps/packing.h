@@ -6,12 +6,12 @@
 
 namespace lw {
 
-/// RGB9E5, rounded to nearest; negative and NaN become 0, too large is clamped (Vulkan 1.3 specification, 'RGB to
-/// shared exponent').
+/// Packs a colour to RGB9E5, rounded to nearest. Negative values and NaN become 0, too large ones are clamped (Vulkan
+/// 1.3 specification, 'RGB to shared exponent').
 uint pack_rgb9e5(vec3 color);
 
-/// Octahedral map in 8 + 8 bits of a unit vector: one of the four codes around it, chosen by `dither` in [0, 1) x [0,
-/// 1) so that their mean is the vector.
+/// Packs a unit vector into 8 + 8 bits of an octahedral map. `dither`, uniform in [0, 1) x [0, 1), chooses one of the
+/// four codes around the vector so that the mean over dithers is the vector.
 uint16_t pack_direction(vec3 direction, vec2 dither);
 
 }  // namespace lw

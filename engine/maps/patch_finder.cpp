@@ -18,7 +18,8 @@ float largest_of(const std::vector<float>& radii) {
     return radii.empty() ? 0.0f : *std::max_element(radii.begin(), radii.end());
 }
 
-/// Three coordinates in a register: a photon meets ten patches where there is much furniture, and most are too far.
+/// Three coordinates in a vector register. Where there is much furniture a photon is tested against ten patches, so the
+/// tests must be fast.
 using Floats = float __attribute__((vector_size(16)));
 
 Floats floats(vec3 v) { return Floats{v.x, v.y, v.z, 0}; }
@@ -69,7 +70,7 @@ PatchFinder::~PatchFinder() = default;
 vec3 PatchFinder::normal_of(const Photon& photon) const {
     const vec3 product = triangle_product(in_.scene, photon.triangle);
     const float size = length(product) * (photon.side() ? -1.0f : 1.0f);
-    return size != 0 ? product / size : vec3(0);  // zero never passes the angle test
+    return size != 0 ? product / size : vec3(0);  // a zero normal never passes the angle test
 }
 
 bool PatchFinder::belongs(vec3 position, vec3 normal, uint patch) const {
@@ -103,7 +104,7 @@ vec3 PatchFinder::nearest_point(vec3 position, vec3 local, const PatchShape& sha
     return shape.to_scene(nearest);
 }
 
-/// Whether no wall stands between a photon and a patch of the same plane: a ray a little above it, and a little
+/// True when no wall stands between a photon and a patch in the same plane: a ray a little above the plane, to a little
 /// beyond the patch's border, meets nothing.
 bool PatchFinder::is_in_sight(vec3 position, vec3 normal, uint patch) const {
     const PatchShape& shape = in_.partition.shapes[patch];
@@ -112,8 +113,8 @@ bool PatchFinder::is_in_sight(vec3 position, vec3 normal, uint patch) const {
     return is_clear(position, normal, way);
 }
 
-/// Whether a photon close to the border of its own piece sees the inside of it: a chord does not follow a round
-/// wall everywhere.
+/// True when a photon close to the border of its own piece sees the inside of the piece. It may not, because a chord
+/// follows a round wall only nearly.
 bool PatchFinder::is_before_the_wall(vec3 position, vec3 normal, uint own) const {
     const PatchShape& shape = in_.partition.shapes[own];
     if (shape.outline.empty()) return true;
@@ -122,13 +123,14 @@ bool PatchFinder::is_before_the_wall(vec3 position, vec3 normal, uint own) const
     return way == vec2(0) || is_clear(position, normal, shape.u_axis * way.x + shape.v_axis * way.y);
 }
 
-/// Whether a ray a little above a plane, and a little longer than the way along it, meets nothing.
+/// True when a ray a little above a plane, a little longer than the vector `way` along it, meets nothing.
 bool PatchFinder::is_clear(vec3 position, vec3 normal, vec3 way) const {
     way -= normal * dot(way, normal);
     const float distance = length(way);
     const float lift = std::max(height_of_cuts(largest_), 8 * in_.caster.epsilon());
     if (!(distance > 0)) return true;
-    if (in_.caster.nearest(in_.caster.offset(position, normal), normal, lift)) return false;  // under a leaning wall
+    if (in_.caster.nearest(in_.caster.offset(position, normal), normal, lift))
+        return false;                  // the photon is under a leaning wall
     const float beyond = 1.1f * lift;  // a wall may lean by 45 degrees
     return !in_.caster.nearest(position + normal * lift, way / distance, distance + beyond);
 }

@@ -1,4 +1,4 @@
-// Which patches refer to a photon: its own, and those near it whose surface it may belong to.
+// Finds the patches that refer to a photon: its own, and those near it to whose surface it may belong.
 #pragma once
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace lw {
 
-/// What a search for references reads; all of it must outlive the search.
+/// The input of a search for references, by reference.
 struct ReferenceInput {
     const Scene& scene;
     const RayCaster& caster;
@@ -21,23 +21,24 @@ struct NeighbourReference {
     uint patch, photon;
 };
 
-/// Finds the patches of one photon after another. A photon belongs to a patch when it lies within the patch's radius of
-/// its triangle (of the box around it, when the patch has several, and within the largest radius of its bounds), when
-/// its normal is within the angle of the patch's, and when its height over the patch is no more than what the angle
-/// between the two explains: a parallel sheet above or below does not belong, nor does what lies behind a wall: on a
-/// plane, the nearest point of the patch must be in sight.
+/// Finds the patches that refer to a photon. A patch does so when all of this holds. The photon lies within the patch's
+/// radius of its triangle, or, when it has several, of the box around them. The photon's normal is within the angle of
+/// the patch's. Its height over the patch is no more than the angle between the two explains, so that parallel surfaces
+/// above or below do not count. In the same plane, the nearest point of the patch is in sight, so that photons behind a
+/// wall do not count.
 class PatchFinder {
   public:
     explicit PatchFinder(const ReferenceInput& input);
     ~PatchFinder();
 
-    /// The patch that a photon, given by its index, lies on.
+    /// The patch on which the photon with this index lies.
     uint own_patch(uint photon) const {
         const Photon& p = in_.photons[photon];
         return in_.partition.patches.at(2 * p.triangle + p.side(), p.position);
     }
 
-    /// Appends every other patch than its `own` that refers to a photon. Returns whether its own does.
+    /// Appends a reference for every patch other than `own` that refers to a photon. Returns true when its own patch
+    /// refers to it too.
     bool find(uint photon, uint own, std::vector<NeighbourReference>& found) const;
 
   private:

@@ -7,7 +7,7 @@
 namespace lw {
 namespace {
 
-/// The grid in the frame of its patch; origin and sizes follow from its photons.
+/// A grid with the frame of its patch; fill_grid() sets origin and sizes.
 SurfaceGrid frame_of(const PatchShape& shape, float radius) {
     SurfaceGrid grid{};
     grid.normal = shape.normal;
@@ -18,7 +18,7 @@ SurfaceGrid frame_of(const PatchShape& shape, float radius) {
     return grid;
 }
 
-/// Numbers the patches that refer to photons, and the cuts that lead to any of them.
+/// Gives numbers to the patches that refer to photons, which become grids, and to the cuts that lead to any of them.
 PatchGrids number_lit_patches(const References& references, const Patches& patches) {
     PatchGrids lit;
     std::vector<uint> grid_of_patch(patches.count, no_grid), renumbered_cuts(patches.cuts.size(), no_grid);
@@ -32,7 +32,7 @@ PatchGrids number_lit_patches(const References& references, const Patches& patch
     const auto leads_to_light = [&](uint id) {
         return is_cut(id) ? is_lit[id & ~cut_bit] != 0 : grid_of_patch[id] != no_grid;
     };
-    for (size_t c = patches.cuts.size(); c-- > 0;)  // those it leads to first
+    for (size_t c = patches.cuts.size(); c-- > 0;)  // cuts lead to later ones only, which must be known first
         is_lit[c] = leads_to_light(patches.cuts[c].front) || leads_to_light(patches.cuts[c].back);
     for (size_t c = 0, next = 0; c < patches.cuts.size(); ++c)
         if (is_lit[c]) renumbered_cuts[c] = uint(next++) | cut_bit;
@@ -46,7 +46,7 @@ PatchGrids number_lit_patches(const References& references, const Patches& patch
     return lit;
 }
 
-/// Joins the starts of the cells of all grids, and tells each grid its first.
+/// Joins the cell starts of all grids to one array, and sets first_cell of each grid.
 void join_cells(const std::vector<std::vector<uint>>& starts, PhotonGrids& grids) {
     uint64_t cells = 0;
     for (size_t m = 0; m < starts.size(); ++m) {

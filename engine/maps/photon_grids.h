@@ -1,13 +1,14 @@
-// Photons sorted into the grids of the patches that refer to them (paper, sections 2.1 and 2.2).
+// Sorts photons into the grids of the patches that refer to them (Graglia, Sequeira, Mavromatis, Real-Time Walkthrough
+// Rendering, 2012, sections 2.1 and 2.2).
 #pragma once
 #include "maps/photon_map.h"
 #include "maps/references.h"
 
 namespace lw {
 
-/// Grids with the patches they are of. Patches without photons have none.
+/// Grids, and the patch of each. Patches without photons have none.
 struct PatchGrids : SurfaceGrids {
-    std::vector<uint> patches;  // of the partition, one per grid, ascending
+    std::vector<uint> patches;  // per grid its patch in the partition, ascending
 };
 
 /// The grids of a set of photons, numbered from 0, and the photons in their cells.
@@ -16,17 +17,17 @@ struct PhotonGrids {
     PhotonRecords records;
 };
 
-/// What records keep of a photon.
+/// How photons are stored in records.
 struct RecordSettings {
     float flux_scale = 1;  // record flux = flux * flux_scale
     bool directions = false;
 };
 
-/// One grid for each patch that refers to photons, with its records; throws Error beyond 2^32 references or cells.
+/// Makes a grid with its records for each patch that refers to photons. Throws Error beyond 2^32 references or cells.
 PhotonGrids sort_into_grids(const ReferenceInput& input, RecordSettings settings);
 
-/// Appends the grids, cuts and records of `more` behind those of `grids` and `records`, whose sides keep to their own.
-/// Returns the grid or cut of each side in `more`, by its new number.
+/// Appends the grids, cuts and records of `more` to `grids` and `records`; grids.grid_of_side is unchanged. Returns
+/// more.grid_of_side with the new numbers.
 std::vector<uint> append_grids(PhotonGrids more, SurfaceGrids& grids, PhotonRecords& records);
 
 }  // namespace lw

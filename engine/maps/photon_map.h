@@ -1,4 +1,4 @@
-// The photon maps of a scene as plain arrays, in the layout that the file and the GPU share (shaders/photon_map.h).
+// The photon map of a scene as plain arrays, in the layout that the file and the GPU share (shaders/photon_map.h).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace lw {
 
-/// What a bake was asked for and what it found; stored in the file.
+/// The settings of a bake. They are stored in the file.
 struct BakeSettings {
     uint64_t photons = 1'000'000;    // stored photons asked for
     float radius = 0;                // m, largest search radius; 0 in the settings means automatic
@@ -17,13 +17,13 @@ struct BakeSettings {
     bool direct_in_photons = false;  // direct light: from photons as in the paper, or exact by shadow rays
 };
 
-/// The photon grids of the patches of a scene, and which of them each side of a triangle lies in.
+/// The photon grids of the patches of a scene, and the grid of each side of each triangle.
 struct SurfaceGrids {
     std::vector<uint> grid_of_side;  // 2 per triangle: grid or cut of the front side, of the back side, or no_grid
     std::vector<SurfaceGrid> grids;  // one per patch
-    std::vector<Cut> cuts;           // each before those it leads to
+    std::vector<Cut> cuts;           // each before the cuts it leads to
 
-    /// Calls visit(grid) for every grid in which points of a surface lie whose grid or cut is `index`.
+    /// Calls visit(grid) for every grid that `index`, a grid or cut, leads to.
     template <class Visit>
     void for_each_grid(uint index, const Visit& visit) const {
         if (index == no_grid) return;
@@ -33,7 +33,7 @@ struct SurfaceGrids {
         for_each_grid(cut.back, visit);
     }
 
-    /// The grid of a point of a surface whose grid or cut is `index`; no_grid where it has none.
+    /// The grid of a point of a surface whose entry in grid_of_side is `index`; no_grid where it has none.
     uint behind_cuts(uint index, vec3 position) const {
         while (is_cut(index)) index = behind_cut(cuts[index & ~cut_bit], position);
         return index;
@@ -58,10 +58,10 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
     uint64_t scene_hash = 0;
     BakeSettings settings;  // with the radius that was used
     uint64_t stored_photons = 0;
-    std::vector<uint64_t> emitted;  // photons emitted per light
+    std::vector<uint64_t> emitted;  // per lamp: photons emitted
     SparseArray caustic_sides;      // when there are caustics, 2 per triangle: their grid or cut + 1, or 0
-    uint caustic_grids = 0;         // how many of the grids; their photons (path_caustic) are in no other grid
-    uint caustic_cuts = 0;          // how many of the cuts, the last ones
+    uint caustic_grids = 0;         // the last of the grids, for the photons of caustics, which are in no other grid
+    uint caustic_cuts = 0;          // how many of the cuts lead to these, the last ones
 
     std::vector<uint> coverage;       // per node of all lattices, see unpack_coverage()
     std::vector<uint> visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all
@@ -72,7 +72,7 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
                                            // when photons hold all light
     std::vector<ShadowMask> shadow_masks;  // in the order of cells and lamps; empty when photons hold all light
 
-    /// All arrays together.
+    /// The bytes of all arrays.
     uint64_t bytes() const {
         const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
         return size(grid_of_side, grids, cuts, cell_starts, places, fluxes, directions, coverage, visible_lamps,
@@ -85,7 +85,7 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
     bool holds_caustics(size_t node) const {
         return !smooth_caustics.empty() && ((smooth_caustics[node / 32] >> (node % 32)) & 1u);
     }
-    /// True when cells know more than their lamps, see cell_words().
+    /// True when the words of a cell begin with a word of marks, see cell_words().
     bool has_marks() const { return !smooth_caustics.empty() || !shadow_masks.empty(); }
     bool has_coverage() const { return !coverage.empty(); }
     bool has_visible_lamps() const { return !visible_lamps.empty(); }

@@ -16,14 +16,14 @@ constexpr size_t max_tasks = 64;
 constexpr size_t min_task = 8192;
 constexpr uint moved_out = ~0u;  // in place of a photon that its own patch does not keep
 
-/// The photons [begin, end) of an order, and what was found of them for each patch.
+/// A range [begin, end) of photons, counts per patch, and the references of other patches to these photons.
 struct Task {
     size_t begin, end;
     std::vector<uint> counts;
     std::vector<NeighbourReference> foreign{};
 };
 
-/// All photons in at most `max_tasks` pieces, with a count for each patch.
+/// Divides all photons into at most max_tasks tasks, with a counter for each patch.
 std::vector<Task> split(const ReferenceInput& input) {
     const size_t photons = input.photons.size(), size = std::max(min_task, photons / max_tasks + 1);
     std::vector<Task> tasks;
@@ -32,8 +32,8 @@ std::vector<Task> split(const ReferenceInput& input) {
     return tasks;
 }
 
-/// Turns the counts of the tasks into the places where each writes first, patch after patch, those of a patch from
-/// begin(patch) on; end(patch, place) learns where they end.
+/// Turns the counts of the tasks into the places at which each task writes first: for each patch they begin at
+/// begin(patch), and end(patch, place) is called with their end.
 template <class Begin, class End>
 void place_counts(std::vector<Task>& tasks, size_t patches, const Begin& begin, const End& end) {
     for (size_t p = 0; p < patches; ++p) {
@@ -61,9 +61,10 @@ References sort_by_patch(const ReferenceInput& input, const PatchFinder& finder)
     return sorted;
 }
 
-/// What other patches refer to, in pieces; photons that move out of their own patch are struck from `sorted`.
+/// Finds the references to photons of other patches, by task. Photons to which their own patch does not refer are
+/// marked moved_out in `sorted`.
 std::vector<Task> find_foreign(const ReferenceInput& input, const PatchFinder& finder, References& sorted) {
-    constexpr size_t ahead = 16;  // photons on their way from memory
+    constexpr size_t ahead = 16;  // photons prefetched ahead
     std::vector<Task> tasks = split(input);
     Progress progress("references", input.photons.size());
     parallel_for(tasks.size(), [&](size_t t) {

@@ -1,6 +1,7 @@
-// Which photons each patch refers to (paper, section 2.1): those on it, and those within
-// its radius whose normal differs by less than the angle. Lists of neighbours per cell of a patch replace the paper's
-// lists per triangle, which grow with the square of the triangles.
+// Finds the photons that each patch refers to (Graglia, Sequeira, Mavromatis, Real-Time Walkthrough Rendering, 2012,
+// section 2.1): those on it, and those within its radius whose normal differs by less than the angle. Lists of
+// neighbours per cell of a patch replace the paper's lists per triangle, which grow with the square of the number of
+// triangles.
 #pragma once
 #include "maps/patch_finder.h"
 
@@ -12,13 +13,13 @@ struct References {
     std::vector<uint> photons;     // indices of photons, ascending within a patch
 };
 
-/// All references to the photons, by the rule of PatchFinder.
+/// The references of all patches to the photons, by the rule of PatchFinder.
 References find_references(const ReferenceInput& input);
 
-/// References per photon from about `samples` photons spread over the whole set.
+/// The mean number of references per photon, from about `samples` photons spread over the whole set.
 double sample_references(const ReferenceInput& input, size_t samples);
 
-/// The partition with smaller radii of small patches, until references per photon stay below 2.3.
+/// Lowers the radii of small patches until there are fewer than 2.3 references per photon, and returns the partition.
 Partition limit_references(const Scene& scene, const RayCaster& caster, const std::vector<Photon>& photons,
                            Partition partition);
 

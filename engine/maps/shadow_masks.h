@@ -1,4 +1,5 @@
-// Where small lamps cast shadows on plane patches: a lamp is there or not, so 8 x 8 looks at it from a cell say most.
+// Shadow masks: where shadows of small lamps cross plane patches. A small lamp is either seen or not, so 8 x 8 rays per
+// cell describe its shadow well.
 #pragma once
 #include <vector>
 
@@ -7,9 +8,9 @@
 
 namespace lw {
 
-/// A mask of each point, spot or directional lamp in each cell of a plane patch around which the nodes disagree
-/// (`visible_lamps`, of find_visibility()), in the order of cells and lamps. None where what stands between tints the
-/// light unevenly.
+/// Finds a mask for each cell of a plane patch and each point, spot or directional lamp that only some of the nodes
+/// around the cell see. Masks are in the order of cells, then lamps. There is none where the light is tinted unevenly
+/// on its way. `visible_lamps`: of find_visibility().
 std::vector<ShadowMask> find_shadow_masks(const Scene& scene, const RayCaster& caster, const Lattice& lattice,
                                           const std::vector<uint>& visible_lamps);
 

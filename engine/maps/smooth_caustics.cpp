@@ -12,9 +12,9 @@ namespace lw {
 namespace {
 
 constexpr float max_record = 32768;  // RGB9E5 goes to 65408
-constexpr float min_steps = 1.5f;    // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
+constexpr float min_steps = 1.5f;    // lattice steps, least kernel radius: at 1 the focus of a glass ball lost 0.5 %
 
-/// What shaders/caustics.glsl gathers, at lattice nodes, lamp by lamp.
+/// Estimates caustics at lattice nodes for each lamp, by the rules of shaders/caustics.glsl.
 class CausticNodes {
   public:
     CausticNodes(const Scene& scene, const Lattice& lattice, const PhotonGrids& caustics, float irradiance_scale)
@@ -25,7 +25,8 @@ class CausticNodes {
           irradiance_scale_(irradiance_scale),
           lamps_(uint(scene.lights.size())) {}
 
-    /// Adds the caustics of a node of grid m to the records; false, and nothing added, where they are too sharp for it.
+    /// Adds the caustics at a node of grid m to the records. Returns false, and adds nothing, where they are too sharp
+    /// for the lattice.
     bool add(uint m, uint node, std::vector<uint>& records) const {
         const NodePoint& point = lattice_.nodes[node];
         if (!point.exists()) return false;
@@ -55,7 +56,7 @@ class CausticNodes {
         return std::any_of(light.begin(), light.end(), [&](const vec3& e) { return largest(e) > 0; });
     }
 
-    /// As records keep it: lux per unit intensity x irradiance_scale, per lamp.
+    /// The caustic light at a node per lamp, in the unit of records: lux for intensity 1 times irradiance_scale.
     std::vector<vec3> light_at_node(uint m, uint node, const SurfaceGrid& grid, vec3 local, float radius) const {
         std::vector<vec3> light(lamps_, vec3(0));
         const float r2 = radius * radius, wide = std::min(4 * radius / grid.radius, 1.0f);

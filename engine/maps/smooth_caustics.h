@@ -1,5 +1,5 @@
-// Caustic light where it is smooth joins the lattice nodes, so that a frame gathers caustic photons only where they are
-// dense.
+// Adds caustics to the lattice nodes where they are smooth, so that a frame gathers caustic photons only where they are
+// sharp.
 #pragma once
 #include "maps/irradiance.h"
 
@@ -10,9 +10,9 @@ struct SmoothCaustics {
     std::vector<uint> marks;    // a bit per node (PhotonMap::smooth_caustics)
 };
 
-/// Adds to the irradiance of find_irradiance() what the photons of `caustics` bring to the nodes whose kernel of
-/// caustic_neighbours photons is no narrower than 1.5 steps of their lattice, and marks those nodes. For maps that
-/// leave lamps to shadow rays only: cells without bits of lamps have no place for the marks.
+/// Adds the light of the photons of `caustics` to the irradiance of find_irradiance(), at nodes where the kernel of
+/// caustic_neighbours photons is no narrower than 1.5 lattice steps, and marks these nodes. Only for maps that leave
+/// direct light to shadow rays: without bits of lamps cells have no word for the marks.
 SmoothCaustics add_smooth_caustics(const Scene& scene, const Lattice& lattice, const PhotonGrids& caustics,
                                    NodeIrradiance irradiance);
 

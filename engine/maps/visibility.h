@@ -1,5 +1,5 @@
-// Which lamps the surface around each lattice node sees: all of it, none, or part. Only where part of it does must a
-// gather trace shadow rays.
+// Finds which lamps are seen from the surface around each lattice node: from all of it, from none, or from part. A
+// gather needs shadow rays only where part of it sees a lamp.
 #pragma once
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace lw {
 
-/// Four bits per node and lamp (some_visible and after in shaders/photon_map.h), visibility_words(lamps) words per
-/// node; the surroundings are the 3 x 3 nodes around, so that narrow shadows are not missed. One ray per node for
-/// point, spot and directional lamps, a few for meshes. Nodes without a point have no bits.
+/// Returns four bits per node and lamp (see some_visible in shaders/photon_map.h), visibility_words(lamps) words per
+/// node. The surroundings of a node are the 3 x 3 nodes around it, so that narrow shadows are not missed. Traces one
+/// ray per node for point, spot and directional lamps, a few for meshes. Nodes without a point have no bits set.
 std::vector<uint> find_visibility(const Scene& scene, const RayCaster& caster, const Lattice& lattice);
 
 }  // namespace lw

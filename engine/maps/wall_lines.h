@@ -1,15 +1,16 @@
-// Where walls stand on plane patches: straight lines, and chords of round walls.
+// Finds where walls stand on plane patches, as straight lines, and as chords of round walls.
 #pragma once
 #include "maps/patches.h"
 
 namespace lw {
 
-/// A line with the stretches of it where walls stand, in metres from `point` along `along`, in the frame of a patch.
+/// A line in the frame of a patch, and its stretches on which walls stand: each from x to y, in m from `point` along
+/// the unit vector `along`.
 struct WallLine {
     vec2 point, along;
     std::vector<vec2> stretches;
-    float length = 0;       // of the longest stretch
-    bool is_chord = false;  // of a round wall: it has one stretch
+    float length = 0;       // of the longest stretch, m
+    bool is_chord = false;  // a chord of a round wall, which has one stretch
 
     float height(vec2 p) const { return along.x * (p.y - point.y) - along.y * (p.x - point.x); }
 };
@@ -23,7 +24,7 @@ struct WalledPatch {
 /// below.
 inline float height_of_cuts(float radius) { return 0.03f * radius; }
 
-/// How far a chord may be from the round wall it stands for, m.
+/// The largest distance between a chord and the round wall that it stands for, m.
 inline float width_of_chords(float radius) { return 0.02f * radius; }
 
 /// The patches wider than the search `radius` (m) on which surfaces stand along straight lines of at least that length,
