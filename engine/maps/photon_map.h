@@ -60,8 +60,8 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
     uint64_t stored_photons = 0;
     std::vector<uint64_t> emitted;  // per lamp: photons emitted
     SparseArray caustic_sides;      // when there are caustics, 2 per triangle: their grid or cut + 1, or 0
-    uint caustic_grids = 0;         // the last of the grids, for the photons of caustics, which are in no other grid
-    uint caustic_cuts = 0;          // how many of the cuts lead to these, the last ones
+    uint caustic_grids = 0;         // number of grids of caustics, the last ones; their photons are in no others
+    uint caustic_cuts = 0;          // number of cuts that lead to these, the last ones
 
     std::vector<uint> coverage;       // per node of all lattices, see unpack_coverage()
     std::vector<uint> visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all
