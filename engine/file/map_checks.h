@@ -1,5 +1,5 @@
-// What a map file must hold before anything reads it: no index leads out of its array, no number is none, nothing runs
-// on without end (docs/map-format.md).
+// Checks of a map file before anything else reads it: every index lies in its array, every number is finite, every way
+// through the records ends (docs/map-format.md).
 #pragma once
 #include <filesystem>
 #include <string>
@@ -12,18 +12,19 @@ namespace lw {
 /// Throws Error("path: what; bake the map again").
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what);
 
-/// Whether a length or coordinate, m, is one that the shaders can compute with.
+/// True for a length or coordinate, m, with which the shaders can compute without infinities.
 bool is_place(float metres);
 
-/// Whether the scale of a packed record lets light divided by it stay a number.
+/// True for a scale of packed records by which light can be divided without infinities: 2^-100 to 2^100.
 bool is_scale(float scale);
 
-/// Refuses records that are not valid by themselves, or refer to others or to cells that do not exist. `map` has all
-/// other sections.
+/// Throws Error when a record is not valid or refers to a record or cell that does not exist. `map` must hold all other
+/// sections.
 void check_records(const std::filesystem::path& path, const GridRecords& file, const PhotonMap& map,
                    const Scene& scene);
 
-/// Refuses a map, which has its grids and cuts, whose arrays do not agree with each other or with the scene.
+/// Throws Error when the arrays of a map do not agree with each other or with the scene. The map must have its grids
+/// and cuts.
 void check_map(const std::filesystem::path& path, PhotonMap& map, const Scene& scene);
 
 }  // namespace lw

@@ -19,7 +19,7 @@ constexpr std::array<char, 8> magic{'L', 'W', 'P', 'H', 'O', 'T', 'O', 'N'};
 constexpr uint32_t version = 4;
 constexpr size_t section_count = 15;
 
-/// The fixed head of the file; sections follow in this order, each `bytes` long.
+/// The header at the start of the file. The sections follow it in a fixed order; bytes[i] is the length of section i.
 struct Header {
     std::array<char, 8> magic;
     uint32_t version;
@@ -34,7 +34,7 @@ struct Header {
     float flux_scale;
     uint32_t direct_in_photons;
     float irradiance_scale;
-    uint32_t caustic_grids;  // the last of the grids and cuts; 0 in files of scenes without
+    uint32_t caustic_grids;  // number of grids and cuts of caustics, the last ones; 0 in scenes without
     std::array<uint64_t, section_count> bytes;
 };
 static_assert(sizeof(Header) == 200);
