@@ -65,12 +65,13 @@ LW_CONST uint max_cuts_deep = 48u;       // one after the other
 
 /// Coverage of the kernels of radius R/4, R/2, 3R/4 and R of a grid with largest radius R, one byte each.
 LW_CONST uint coverage_levels = 4u;
-LW_CONST float coverage_unit = 160.0f;  // the byte of coverage 1
+LW_CONST float coverage_unit = 160.0f;  // the byte that stands for coverage 1
 LW_CONST float min_coverage = 0.05f;
 
-LW_CONST float caustic_neighbours = 120.0f;  // photons under the kernel of a caustic
+LW_CONST float caustic_neighbours = 120.0f;  // photons that the kernel of a caustic should hold
 
-/// What a node sees of a lamp, four bits: what its surroundings see, then what it sees itself. No bits: not known.
+/// Four bits for a node and a lamp: what the surroundings of the node see of the lamp (some_visible, some_hidden), then
+/// the same for the node itself. No bits set: not known.
 LW_CONST uint some_visible = 1u;
 LW_CONST uint some_hidden = 2u;
 LW_CONST uint own_shift = 2u;
@@ -79,19 +80,20 @@ LW_INLINE uint visibility_words(uint lamps) { return (lamps + lamps_per_word - 1
 LW_INLINE uint visibility_word(uint lamp) { return lamp / lamps_per_word; }
 LW_INLINE uint visibility_shift(uint lamp) { return 4u * (lamp % lamps_per_word); }
 
-/// What a cell of a lattice knows of a lamp, eight bits: what its corners' surroundings see (some_visible, some_hidden;
-/// no bits: not known), whether the light of its corners holds the lamp, and which corners see some of it.
+/// Eight bits for a cell of a lattice and a lamp: what the surroundings of its corners see (some_visible, some_hidden;
+/// no bits: not known), whether the light of its corners holds the lamp, whether it has a shadow mask, and which
+/// corners see some of the lamp.
 LW_CONST uint in_cell_light = 4u;
 LW_CONST uint corner_sees = 16u;  // << 0 to 3: corner (0, 0), (1, 0), (0, 1), (1, 1)
 LW_CONST uint cell_lamps_per_word = 4u;
 LW_INLINE uint cell_lamp_words(uint lamps) { return (lamps + cell_lamps_per_word - 1u) / cell_lamps_per_word; }
 LW_CONST uint has_shadow_mask = 8u;
-/// Words of a cell in the array of what cells know: its marks, if any cell has some, then its lamps. Marks: the
-/// corners, in the order of corner_sees, whose light holds the caustics; above them the first of its shadow masks, in
-/// the order of lamps.
+/// The number of words per cell: a word of marks, if any cell has some, then the lamps. The lowest four bits of the
+/// marks tell which corners, in the order of corner_sees, hold the caustics; the bits above are the index of the first
+/// shadow mask of the cell, whose masks are in the order of lamps.
 LW_INLINE uint cell_words(uint lamps, bool has_marks) { return cell_lamp_words(lamps) + (has_marks ? 1u : 0u); }
 LW_CONST uint first_mask_shift = 4u;
-/// Rays are traced to two lamps at a time, the first or the last half of a word.
+/// Pixels are listed for pairs of lamps, the first or the last half of a word.
 LW_CONST uint lamps_per_pair = 2u;
 LW_INLINE uint ray_pairs(uint lamps) { return max((lamps + lamps_per_pair - 1u) / lamps_per_pair, 1u); }
 LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
@@ -112,8 +114,9 @@ LW_INLINE float corners_set(uint bits, vec2 f) {
     return mix(mix(set.x, set.y, f.x), mix(set.z, set.w, f.x), f.y);
 }
 
-/// Which of 8 x 8 points of a cell a lamp lights: bit 8 j + i of (lit_low, lit_high), points at the middles of texels,
-/// and the light that reaches those, RGB9E5.
+/// A shadow mask: which of 8 x 8 points of a cell a lamp lights. Bit 8 j + i of (lit_low, lit_high) is set when point
+/// (i, j) is lit; points lie at the centres of 8 x 8 squares. `tint`: the part of the light that reaches lit points,
+/// RGB9E5.
 struct ShadowMask {
     uint cell;
     uint lamp;
@@ -143,17 +146,17 @@ struct PhotonPlace {
 /// Specular lobes of surfaces smoother than this glTF roughness are followed by rays; see docs/decisions/0007.
 LW_CONST float max_followed_roughness = 0.75f;
 
-/// How photons become light.
+/// The modes of the gather.
 LW_CONST uint gather_mode_exact = 0u;    // the k nearest photons, with a heap, as in the paper (docs/method.md)
 LW_CONST uint gather_mode_smooth = 1u;   // bandwidth from cell counts, one pass with a smooth kernel
 LW_CONST uint gather_mode_cached = 2u;   // irradiance of the lattice nodes
-LW_CONST uint gather_mode_inspect = 3u;  // no light: what the smooth estimate stands on (shaders/inspect.glsl)
+LW_CONST uint gather_mode_inspect = 3u;  // no light: data about the smooth estimate (shaders/inspect.glsl)
 
-/// Photons cannot resolve a narrower lobe: below this glTF roughness the highlight is widened, which keeps its energy
-/// and trades its sharpness for freedom from blotches.
+/// Least glTF roughness of a lobe that reflects photons. Photons cannot resolve a narrower lobe, so its highlight is
+/// widened: it keeps its energy and loses sharpness, but has no blotches.
 LW_CONST float min_gathered_roughness = 0.55f;
 
-/// What the photons around a point say. radiance in cd/m2, irradiance in lux per RGB channel.
+/// The result of a gather at a point: radiance in cd/m2 and irradiance in lux, RGB.
 struct Gathered {
     vec3 radiance;
     vec3 irradiance;
@@ -182,8 +185,8 @@ LW_INLINE uint light_of(PhotonPlace place) { return (place.h_light_and_path >> 1
 
 LW_INLINE uint path_of(PhotonPlace place) { return place.h_light_and_path >> 30; }
 
-/// Photons on a surface that is parallel but not the same: the height above the query may grow with the distance
-/// (curved and creased surfaces), but not more.
+/// True when a photon may lie on the same surface as the query. Its height over the query (`height`) may grow with the
+/// distance, as on curved and creased surfaces; a greater height means another, parallel surface.
 LW_INLINE bool on_same_surface(float height, float distance_squared, float max_radius) {
     float tolerance = 0.01f * max_radius;
     float excess = max(abs(height) - tolerance, 0.0f);

@@ -7,7 +7,7 @@ struct Seen {
     Surface surface;
     GridPlace at;
     vec3 to_eye;
-    vec3 n_geometric;  // both turned to the eye
+    vec3 n_geometric;  // both on the side of the eye
     vec3 n_shading;
     bool front;
 };
@@ -25,14 +25,14 @@ Seen see(uint triangle, vec2 barycentrics, vec3 eye) LW_MEMBER {
     return seen;
 }
 
-/// What a surface shows by itself: its glow, or its colour when unlit.
+/// The radiance that a surface emits, or its colour when it is unlit, cd/m2.
 vec3 own_radiance(Surface s, bool front) LW_MEMBER {
     if ((s.flags & material_unlit) != 0u) return s.base_color;
     if (!front && (s.flags & material_double_sided) == 0u) return vec3(0.0f);
     return s.emissive * (s.light >= 0 ? lamp_factor(uint(s.light)) : vec3(1.0f));
 }
 
-/// Light of photons; what glows and what rays bring comes on top.
+/// The light of a surface from photons and caustics, without its own glow and without what rays add.
 Gathered estimate_at(Seen seen) LW_MEMBER {
     Gathered light = gather_photons(seen.at, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye);
     float left = has_caustics ? caustics_left(seen.at) : 0.0f;
@@ -42,13 +42,13 @@ Gathered estimate_at(Seen seen) LW_MEMBER {
     return light;
 }
 
-/// True when lamps of a pair have to be added to what the photons say.
+/// True when a lamp of a pair must be added to the light of the photons.
 bool needs_rays(Seen seen, uint pair) LW_MEMBER {
     return has_direct &&
            lamps_to_add(lamp_bits(seen.at, cell_lamp_word(pair * lamps_per_pair)), pair, seen.surface) != 0u;
 }
 
-/// Adds the lamps of one pair.
+/// Adds the direct light of one pair of lamps.
 void add_rays(Seen seen, uint pair, LampPoints points, LW_INOUT(Gathered) light) LW_MEMBER {
     add_direct(seen.at, pair, seen.surface, seen.n_geometric, seen.n_shading, seen.to_eye, points, light);
 }

@@ -19,7 +19,7 @@ constexpr std::array<char, 8> magic{'L', 'W', 'P', 'H', 'O', 'T', 'O', 'N'};
 constexpr uint32_t version = 4;
 constexpr size_t section_count = 15;
 
-/// The fixed head of the file; sections follow in this order, each `bytes` long.
+/// The header at the start of the file. The sections follow it in a fixed order; bytes[i] is the length of section i.
 struct Header {
     std::array<char, 8> magic;
     uint32_t version;

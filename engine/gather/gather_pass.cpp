@@ -16,7 +16,7 @@ namespace {
 
 using Stage = vk::PipelineStageFlagBits2;
 
-/// A pipeline of the gather and what it does.
+/// A pipeline to be made, and the constants in which it differs from the others.
 struct StagePipeline {
     vk::UniquePipeline* pipeline;
     uint stage;
@@ -65,14 +65,14 @@ GatherPass::GatherPass(const Device& device, const Resident& resident, const Pic
     if (follows) wanted.push_back({&followed_photons_, stage_photons, true});
     if (follows && has_rays) wanted.push_back({&followed_rays_, stage_rays, true});
     const SpirV code = resident.queries_rays() ? SpirV(gather_queries_comp) : SpirV(gather_comp);
-    parallel_for(wanted.size(), [&](size_t i) {  // a tenth of a second each where the driver is slow
+    parallel_for(wanted.size(), [&](size_t i) {  // each takes a tenth of a second where the driver is slow
         FrameConstants own = constants;
         own.stage = wanted[i].stage;
         own.of_followed = wanted[i].of_followed;
         *wanted[i].pipeline = make_compute_pipeline(device, *layout_, code, spec_constants_of(own));
     });
     if (!follows) return;
-    const bool follows_lobes = followed_roughness(settings) > std::sqrt(min_alpha);  // not mirrors and glass alone
+    const bool follows_lobes = followed_roughness(settings) > std::sqrt(min_alpha);  // not only mirrors and glass
     lobes_ = follows_lobes ? max_lobes : 1;
     has_branch_[branch_reflected] = resident.min_lobe() < followed_roughness(settings);
     has_branch_[branch_through] = constants.follows_through;

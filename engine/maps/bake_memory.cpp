@@ -10,10 +10,10 @@
 namespace lw {
 namespace {
 
-constexpr double max_references_per_photon = 2.5;  // what small patches are tightened to
+constexpr double max_references_per_photon = 2.5;  // small patches get smaller radii for this
 constexpr double max_indices = 4.29e9;             // 32 bits
 
-/// What a bake counts; areas and distances in metres.
+/// The numbers that the memory of a bake depends on.
 struct Counts {
     double photons, samples, nodes, lamps, triangles;
 };
@@ -22,14 +22,14 @@ Counts counts_of(const Scene& scene, const BakeSettings& settings) {
     const double r = double(settings.radius > 0 ? std::min(settings.radius, scene.size())
                                                 : automatic_radius(scene, settings.photons));
     const double sides = 2 * area_of(scene) / std::max(r * r, 1e-30);
-    constexpr double sampled = 0.85;  // of the sides: the inner ones of closed bodies need no samples
+    constexpr double sampled = 0.85;  // part of all sides: inner sides of closed bodies need no samples
     return {double(settings.photons), sampled * sides / 0.03, sides / 0.25, double(scene.lights.size()),
             double(scene.triangles.size())};
 }
 
 double bytes_of(const Counts& c) {
     constexpr double program = 2e7, per_triangle = 650;
-    constexpr double tracing = 75;  // a photon in the vectors of its task, and where they are joined
+    constexpr double tracing = 75;  // bytes of a photon in the vector of its task and in that of all
     constexpr double building = 85, per_sample = 70, per_node = 64, per_node_and_lamp = 20;
     const double maps =
         building * c.photons + per_sample * c.samples + (per_node + per_node_and_lamp * c.lamps) * c.nodes;
@@ -42,7 +42,8 @@ bool can_be_counted(const Counts& c) {
            c.nodes * std::max(words, 1.0) < max_indices;
 }
 
-/// The most photons that `fits` allows, in steps of one significant digit; 0 when none.
+/// The largest number of photons below `wanted`, of one significant digit, for which `fits` is true; 0 when there is
+/// none.
 template <class Fits>
 uint64_t max_photons(uint64_t wanted, const Fits& fits) {
     for (uint64_t digit = 1'000'000'000; digit > 0; digit /= 10)

@@ -1,4 +1,4 @@
-// How much memory a bake will take, asked before it starts: a bake that cannot end is refused in its first second.
+// Predicts the memory that a bake will take, so that a bake that cannot finish is refused before it starts.
 #pragma once
 #include "maps/photon_map.h"
 #include "scene/scene.h"
@@ -9,8 +9,8 @@ namespace lw {
 /// least what they take, at most about twice as much (tests/maps/bake_memory_test.cpp).
 uint64_t predict_bake_bytes(const Scene& scene, const BakeSettings& settings);
 
-/// Throws Error when the bake would take more than `budget` bytes, or count more than 2^32 references, nodes or lamp
-/// bits, saying how many photons would do.
+/// Throws Error when the bake would take more than `budget` bytes, or more than 2^32 references, nodes or words of lamp
+/// bits. The message says how many photons would fit.
 void check_bake_fits(const Scene& scene, const BakeSettings& settings, uint64_t budget);
 
 }  // namespace lw

@@ -32,7 +32,7 @@ namespace {
 
 /// Refuses a radius so small that the lattices, which follow it, would take hours and all the memory.
 void check_radius(const Scene& scene, float radius) {
-    constexpr double max_discs = 4e6;  // of this radius, on all surfaces: 400 million samples of their coverage
+    constexpr double max_discs = 4e6;  // most discs of this radius on all surfaces: 400 million samples of coverage
     const double least = std::sqrt(area_of(scene) / (double(lw_pi) * max_discs));
     if (double(radius) >= least) return;
     char text[32];

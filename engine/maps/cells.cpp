@@ -12,10 +12,10 @@
 namespace lw {
 namespace {
 
-constexpr float even_distance = 12;  // steps of the lattice: light from nearer lamps bends too much between nodes
-constexpr float max_direct = 4096;   // of a record; RGB9E5 goes to 65408
+constexpr float even_distance = 12;  // lattice steps: light of nearer lamps is not linear enough between nodes
+constexpr float max_direct = 4096;   // largest direct light in a record; RGB9E5 goes to 65408
 
-/// lux at a point facing `normal` from a lamp of intensity 1, if nothing stands between; falloff as
+/// Illuminance, lux, at a point facing `normal` from a lamp of intensity 1, if nothing stands between; falloff as in
 /// KHR_lights_punctual.
 float unshadowed(const Light& light, vec3 position, vec3 normal) {
     if (comes_from_outside(light.type)) return std::max(0.0f, -dot(light.direction, normal));
@@ -75,7 +75,7 @@ void CellLight::describe_cells(const SurfaceGrid& grid) {
     });
 }
 
-/// A mask that is lit or dark all over says so in the lamp's bits; the others are kept.
+/// Adds a mask to its cell. A mask that is lit or dark everywhere only changes the lamp's bits; others are kept.
 void CellLight::describe(const ShadowMask& mask) {
     uint& word = lamp_word(mask.cell, mask.lamp);
     const uint shift = cell_lamp_shift(mask.lamp);
@@ -102,7 +102,7 @@ uint CellLight::describe(const SurfaceLattice& lattice, uint node, uint lamp) co
     return bits;
 }
 
-/// True when the light of a lamp that all of a cell sees is as good as linear between its corners.
+/// True when the light of a lamp, which all of the cell sees, is nearly linear between the corners.
 bool CellLight::is_even(const SurfaceGrid& grid, uint node, uint lamp, float height) const {
     const Light& light = scene_.lights[lamp];
     if (comes_from_outside(light.type)) return true;

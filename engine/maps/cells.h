@@ -1,5 +1,6 @@
-// What a pixel reads in the cached mode: the light at the corners of each cell of the lattices with all lamps at their
-// present power, and the lamps that the cell leaves to the pixel. Follows from map and scene; not in the file.
+// The data that pixels read in the cached mode: for each cell of the lattices the irradiance at its corners, with all
+// lamps at their present powers, and what is known of each lamp in the cell. Derived from map and scene; not stored in
+// the file.
 #pragma once
 #include <span>
 #include <vector>
@@ -11,12 +12,14 @@ namespace lw {
 
 class CellLight {
   public:
-    /// Finds which lamps the light of each cell holds. Scene and map must outlive it.
+    /// Finds for each cell which lamps its light will hold and which are left to the pixel. Scene and map must outlive
+    /// it.
     CellLight(const Scene& scene, const PhotonMap& map);
 
-    /// What each cell knows, cell_words() words: its marks, and of each lamp; empty when photons hold all light.
+    /// What is known in each cell, cell_words() words per cell: its marks, then bits for each lamp
+    /// (shaders/photon_map.h). Empty when photons hold all light.
     const std::vector<uint>& words() const { return words_; }
-    /// The masks that cells refer to: lit points (low, high), tint (RGB9E5), nothing.
+    /// The shadow masks that cells refer to: 64 lit bits (low, high), tint (RGB9E5), unused.
     const std::vector<uvec4>& masks() const { return masks_; }
     /// The corners' irradiance, four RGB9E5 per cell of lux x the returned scale; powers: RGB power of each lamp.
     float sum(std::span<const vec3> powers, std::vector<uvec4>& light) const;

@@ -49,7 +49,7 @@ class GridSamples {
         }
     }
 
-    /// Sum of area x kernel at `local`, for the kernels of all levels.
+    /// The sum over samples of area x kernel at the point `local`, for the kernels of all levels: the coverage.
     CoverageLevels sum_kernels(vec3 local, float max_radius) const {
         CoverageLevels sums{};
         const int x0 = std::max(column(local.x - radius_), 0), x1 = std::min(column(local.x + radius_), columns_ - 1);
@@ -70,7 +70,7 @@ class GridSamples {
         return size_t(std::min(row(s.y), rows_ - 1)) * size_t(columns_) + size_t(std::min(column(s.x), columns_ - 1));
     }
 
-    /// Without branches, in vectors: a run of samples, then one level after the other.
+    /// Adds a run of samples, one level after the other, without branches, so that the loops become vector code.
     LW_WIDE_VECTORS void add_run(uint first, uint count, vec3 local, float max_radius, CoverageLevels& sums) const {
         std::array<float, run_length> squared{}, areas{};
         const float *u = &u_[first], *v = &v_[first], *h = &h_[first], *area = &area_[first];

@@ -1,5 +1,6 @@
-// How much of a kernel lies on surface that light can reach. Density estimates are divided by it, so that edges,
-// corners and the feet of furniture neither darken nor glow (boundary bias; Jensen 2001, section 7.4).
+// Coverage: the part of a kernel that lies on surface where light can arrive. Density estimates are divided by it, so
+// that they are neither too dark nor too bright at edges, in corners and at the feet of furniture (boundary bias;
+// Jensen 2001, section 7.4).
 #pragma once
 #include <vector>
 

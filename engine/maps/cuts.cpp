@@ -10,7 +10,7 @@
 namespace lw {
 namespace {
 
-constexpr float min_piece = 0.1f;  // of the radius: a wall along the border of a patch cuts nothing off
+constexpr float min_piece = 0.1f;  // in radii, least width of a piece: a wall along the border cuts nothing off
 constexpr size_t max_cuts = 255;
 constexpr int max_cut = max_cuts_deep;
 
@@ -41,7 +41,8 @@ Outline part_of(const Outline& outline, const WallLine& line, float sign) {
     return part;
 }
 
-/// How much of the walls of a line stands inside the outline, m; 0 when the line cuts off next to nothing.
+/// The length of the walls of a line that stand inside the outline, m; 0 when the line would cut off only a narrow
+/// strip.
 float length_inside(const Outline& outline, const WallLine& line, float radius) {
     float low = 0, high = 0, first = 1e30f, last = -1e30f;
     for (size_t i = 0; i < outline.size(); ++i) {
@@ -58,7 +59,7 @@ float length_inside(const Outline& outline, const WallLine& line, float radius) 
     return inside;
 }
 
-/// Cuts one patch after another.
+/// Cuts patches, one after the other, and appends the pieces.
 class Cutter {
   public:
     Cutter(float radius, Patches& patches, std::vector<PatchShape>& shapes)
@@ -85,7 +86,7 @@ class Cutter {
         const WallLine* best = nullptr;
         float most = 0.02f * radius_;
         for (const WallLine& line : *lines_) {
-            if (line.is_chord && best) break;  // chords are the last, in the order in which they cut
+            if (line.is_chord && best) break;  // chords come last, and must cut in their order
             if (const float inside = length_inside(outline, line, radius_); inside > most) best = &line, most = inside;
         }
         if (!best || left_ == 0 || depth == max_cut) return add_piece(outline, depth > 0);
@@ -100,7 +101,7 @@ class Cutter {
         return index | cut_bit;
     }
 
-    /// The first piece takes the place of the whole.
+    /// Adds a piece and returns its number. The first piece takes the number of the whole patch.
     uint add_piece(const Outline& outline, bool is_part) {
         if (!is_part) return free_;
         PatchShape piece = whole_;

@@ -21,7 +21,7 @@ struct Bounds {
     vec3 low{1e30f}, high{-1e30f};
 };
 
-/// The same for each reference to a photon.
+/// Two numbers in [0, 1) to dither the direction of a photon, the same for all references to it.
 vec2 dither_of(uint photon) {
     const uint64_t bits = mix64(photon);
     return vec2(float(bits & 0xffffu), float((bits >> 16) & 0xffffu)) / 65536.0f;
@@ -31,7 +31,7 @@ std::vector<Record> bring_into_frame(const SurfaceGrid& grid, const std::vector<
                                      std::span<const uint> chosen, const PhotonRecords& packed, Bounds& bounds) {
     std::vector<Record> records;
     records.reserve(chosen.size());
-    constexpr size_t ahead = 24;  // records on their way from memory
+    constexpr size_t ahead = 24;  // photons prefetched ahead
     for (size_t i = 0; i < chosen.size(); ++i) {
         if (i + ahead < chosen.size()) prefetch(photons[chosen[i + ahead]]);
         const Photon& p = photons[chosen[i]];
@@ -53,14 +53,14 @@ void fit_grid(SurfaceGrid& grid, const Bounds& bounds, size_t count) {
     grid.quantum = extent / 65535.0f;
     const double cells = std::max(1.0, double(count) / references_per_cell);
     double cell = std::sqrt(double(extent.x) * double(extent.y) / cells);
-    // Few or coincident photons: no cells so small that a search over the radius visits thousands.
+    // With few or coincident photons cells must not become so small that a search within the radius visits thousands.
     cell = std::max({cell, double(extent.x) / cells, double(extent.y) / cells, double(grid.radius) / 256});
     grid.cell_size = float(cell);
     grid.columns = uint(std::max(1.0, std::ceil(double(extent.x) / double(grid.cell_size))));
     grid.rows = uint(std::max(1.0, std::ceil(double(extent.y) / double(grid.cell_size))));
 }
 
-/// `local` is relative to the corner of the grid.
+/// Packs a place. `local`: u, v, h relative to the corner of the grid and its lowest height, m.
 PhotonPlace place_of(vec3 local, uint origin, const SurfaceGrid& grid) {
     const auto step = [](float v, float quantum) {  // rounded to nearest
         return uint(std::min(std::max(v / quantum, 0.0f), 65535.0f) + 0.5f);

@@ -7,7 +7,7 @@
 
 namespace lw {
 
-constexpr double references_per_cell = 2.5;  // on average
+constexpr double references_per_cell = 2.5;  // mean number of references in a cell
 
 /// Fits the grid, which has the frame of its patch and its radius, to the photons `chosen` by index, and writes their
 /// records into the arrays of `records`, which have room, from `begin` on; flux is multiplied by its scale. Returns

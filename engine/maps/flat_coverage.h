@@ -1,5 +1,6 @@
-// Coverage in closed form, where a lattice lies on plane ground: a few triangles in its plane that do not overlap, at
-// most walls across it, and nothing that could bury it. Most of a room is like that; the rest is sampled (coverage.h).
+// Coverage in closed form, for nodes on plane ground: a few triangles in one plane that do not overlap, with at most
+// walls across them and nothing that could bury them. Most nodes of a room are like that; the others are sampled
+// (coverage.h).
 #pragma once
 #include <array>
 #include <vector>

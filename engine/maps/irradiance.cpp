@@ -99,7 +99,7 @@ class NodeLight {
                std::max(unpack_coverage(coverage_[node], radius / grid.radius), min_coverage);
     }
 
-    /// Adds the light that comes straight from the meshes.
+    /// Adds the direct light of mesh lamps to the nodes of grid m.
     void add_direct(uint m, std::vector<vec3>& light) const {
         const SurfaceLattice& lattice = grids_[m].lattice;
         const uint count = lattice.columns * lattice.rows;
@@ -142,8 +142,8 @@ class NodeLight {
         return sum;
     }
 
-    /// A node under a piece of furniture takes the light of its neighbours in the open: the surface beside it is looked
-    /// up between the two.
+    /// The mean direct light of the neighbours of node i that are not buried. A buried node takes it, because the
+    /// surface beside the furniture is interpolated between the two.
     vec3 around(const SurfaceLattice& lattice, uint i, const std::vector<char>& buried, const std::vector<vec3>& direct,
                 uint lamp) const {
         const int columns = int(lattice.columns), x = int(i) % columns, y = int(i) / columns;

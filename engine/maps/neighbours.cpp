@@ -25,7 +25,7 @@ struct CellRange {
     uint x0, y0, x1, y1;
 };
 
-/// Tells which patches the photons of cells may belong to; never says no to one they do belong to.
+/// Tests which patches may refer to photons in a cell of a patch. It never rejects one that does.
 class NeighbourTest {
   public:
     NeighbourTest(const std::vector<PatchShape>& shapes, const std::vector<float>& radii, float neighbour_angle_deg)
@@ -38,7 +38,7 @@ class NeighbourTest {
         margin_ = 1e-3f * largest_ + 4e-6f * std::max({reach.x, reach.y, reach.z});
     }
 
-    /// Holds all photons that belong to the patch.
+    /// A box that holds all photons that the patch refers to.
     Box searched_box(uint patch) const {
         const PatchShape& s = shapes_[patch];
         const float reach = radii_[patch] + margin_;
@@ -55,7 +55,7 @@ class NeighbourTest {
         return {centre - extent, centre + extent};
     }
 
-    /// Whether the normals of triangles of `own` may be within the angle of that of `other`.
+    /// True when a triangle of `own` may have a normal within the angle of that of `other`.
     bool normals_agree(uint own, uint other) const {
         const float spread = shapes_[own].cos_spread, cosine = dot(shapes_[other].normal, shapes_[own].normal);
         return own != other && cosine >= (spread < 0.9999f ? cosine_of_sum(cos_angle_, spread) : cos_angle_) - 0.02f;

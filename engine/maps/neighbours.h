@@ -1,5 +1,6 @@
-// Which patches may refer to the photons of each part of a patch. Found once for coarse cells over the rectangle of
-// every patch, so that a photon meets the few candidates of its cell (none, in the middle of a wall) and no search.
+// Lists, for each part of a patch, of the other patches that may refer to photons there. They are found once, for
+// coarse cells over the rectangle of every patch. So a photon is tested against the few candidates of its cell (none in
+// the middle of a wall), without a search.
 #pragma once
 #include <span>
 #include <vector>
@@ -14,7 +15,7 @@ class Neighbours {
     Neighbours(const std::vector<PatchShape>& shapes, const std::vector<float>& radii, float neighbour_angle_deg,
                float cell_size);
 
-    /// A superset of the other patches to which a photon at `position` on `patch` belongs; see belongs().
+    /// The candidates: all other patches that may refer to a photon at `position` on `patch`, and some that do not.
     std::span<const uint> near(uint patch, vec3 position) const {
         const PatchCells& c = cells_[patch];
         const uint x = place(dot(c.u_row, position) - c.low.x, c.columns);
@@ -23,7 +24,7 @@ class Neighbours {
         return {c.list.data() + start[0], c.list.data() + start[1]};
     }
 
-    /// The candidates of all cells of a patch; some more than once.
+    /// The candidates of all cells of a patch; some occur more than once.
     std::span<const uint> of(uint patch) const {
         const PatchCells& c = cells_[patch];
         return std::span(c.list).subspan(2 * c.columns * c.rows);
@@ -34,7 +35,7 @@ class Neighbours {
         vec3 u_row{0}, v_row{0};  // from positions to cells
         vec2 low{0};              // the corner of the patch, in cells
         uint columns = 0, rows = 0;
-        std::vector<uint> list;  // two per cell: where its candidates start and end in this list; then they
+        std::vector<uint> list;  // where the candidates of each cell start and end in this list; then they
 
         /// Returns the size of a cell, m; its z is the height of the patch.
         vec3 divide(const PatchShape& shape, float cell_size);

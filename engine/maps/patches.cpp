@@ -16,7 +16,7 @@ namespace {
 constexpr float gap_in_patches = 0.004f;        // heights further apart than this are two sheets
 constexpr float needle_in_patches = 1.0f / 64;  // narrower large triangles share a patch too
 
-/// Face of the cube and 3 x 3 sub-bin that a direction points at; axis-aligned normals lie in bin centres.
+/// The bin of a direction: one of 54, 3 x 3 on each face of a cube. Axis-aligned normals lie in the centres of bins.
 uint normal_bin(vec3 n) {
     const vec3 a = abs(n);
     const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
@@ -42,13 +42,14 @@ struct PatchKeyHash {
     }
 };
 
-/// The heights a triangle side takes over the plane of its group.
+/// The range of heights of a triangle side along the mean normal of its group, m.
 struct HeightSpan {
     uint group, side;
     float low, high;
 };
 
-/// Splits each group into sheets: a gap in the heights of its triangles parts two of them (the boards of a shelf).
+/// Splits each group into sheets, such as the boards of a shelf: where the heights of its triangles leave a gap of more
+/// than `gap` m, a new sheet begins.
 Patches split_sheets(const Scene& scene, const Patches& groups, float gap) {
     std::vector<glm::dvec3> normals(groups.count, glm::dvec3(0));
     std::vector<HeightSpan> spans(groups.of_side.size());

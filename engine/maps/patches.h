@@ -14,7 +14,7 @@ struct Patches {
     uint count = 0;
     std::vector<Cut> cuts{};  // each before those it leads to
 
-    /// The patch of a point of a triangle side.
+    /// The patch of a point of a triangle side, after cuts.
     uint at(size_t side, vec3 position) const {
         uint id = of_side[side];
         while (is_cut(id)) id = behind_cut(cuts[id & ~cut_bit], position);
@@ -30,15 +30,15 @@ struct PatchShape {
     vec3 box_low{0}, box_high{0};                            // bounds in the scene's axes
     uint triangle = 0;                                       // one of its triangles
     uint triangles = 0;                                      // how many it has
-    float cos_spread = 1;                                    // least cosine of the normal and those of its triangles
-    std::vector<vec2> outline{};  // of a piece of a cut patch, in u and v: convex, counter-clockwise
+    float cos_spread = 1;         // least cosine between `normal` and the normals of its triangles
+    std::vector<vec2> outline{};  // only of a piece of a cut patch: corners in u and v, m, convex, counter-clockwise
 
     /// A point of the scene in that frame, and back.
     vec3 to_local(vec3 p) const { return {dot(p - anchor, u_axis), dot(p - anchor, v_axis), dot(p - anchor, normal)}; }
     vec3 to_scene(vec3 p) const { return anchor + u_axis * p.x + v_axis * p.y + normal * p.z; }
 };
 
-/// The shapes of all patches.
+/// The shape of each patch.
 std::vector<PatchShape> shapes_of(const Scene& scene, const Patches& patches);
 
 /// Groups triangle sides whose bounding box is smaller than `patch_size` metres by (object, cell of that size, one of

@@ -1,4 +1,4 @@
-// The photon maps of a scene as plain arrays, in the layout that the file and the GPU share (shaders/photon_map.h).
+// The photon map of a scene as plain arrays, in the layout that the file and the GPU share (shaders/photon_map.h).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace lw {
 
-/// What a bake was asked for and what it found; stored in the file.
+/// The settings of a bake. They are stored in the file.
 struct BakeSettings {
     uint64_t photons = 1'000'000;    // stored photons asked for
     float radius = 0;                // m, largest search radius; 0 in the settings means automatic
@@ -72,7 +72,7 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
                                            // when photons hold all light
     std::vector<ShadowMask> shadow_masks;  // in the order of cells and lamps; empty when photons hold all light
 
-    /// All arrays together.
+    /// The bytes of all arrays.
     uint64_t bytes() const {
         const auto size = [](const auto&... arrays) { return (... + (uint64_t(arrays.size()) * sizeof(arrays[0]))); };
         return size(grid_of_side, grids, cuts, cell_starts, places, fluxes, directions, coverage, visible_lamps,
@@ -85,7 +85,7 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
     bool holds_caustics(size_t node) const {
         return !smooth_caustics.empty() && ((smooth_caustics[node / 32] >> (node % 32)) & 1u);
     }
-    /// True when cells know more than their lamps, see cell_words().
+    /// True when the words of a cell begin with a word of marks, see cell_words().
     bool has_marks() const { return !smooth_caustics.empty() || !shadow_masks.empty(); }
     bool has_coverage() const { return !coverage.empty(); }
     bool has_visible_lamps() const { return !visible_lamps.empty(); }

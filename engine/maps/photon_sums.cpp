@@ -49,7 +49,7 @@ void PhotonSums::add(vec3 local, float radius, std::span<vec4> sums) const {
     }
 }
 
-/// Runs of many photons are summed apart, so that sums of millions do not drift.
+/// Sums runs of photons separately, so that rounding errors of millions of photons stay small.
 void PhotonSums::add_row(size_t first, size_t last, vec3 local, float inverse_radius2, std::span<vec4> sums) const {
     if (last - first <= summed_at_once) return add_run(first, last, local, inverse_radius2, sums);
     std::vector<vec4> apart(sums.size());

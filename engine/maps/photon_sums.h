@@ -10,7 +10,8 @@ namespace lw {
 
 class PhotonSums {
   public:
-    /// Partial sums of a lamp: photons of one lamp follow each other, and each addition would wait for the one before.
+    /// Partial sums per lamp. Photons of one lamp often follow each other, and with one sum each addition would wait
+    /// for the one before.
     static constexpr size_t sums_per_lamp = 4;
 
     /// Unpacks the photons of a grid; `max_radius`: the largest search radius of the map, m.

@@ -9,7 +9,7 @@ namespace {
 constexpr float min_cos_of_plane = 0.9997f;  // 1.4 degrees
 constexpr float min_roughness_of_matte = 0.8f;
 
-/// True when direct light of small lamps looks the same whether it comes from the lamp or from all sides.
+/// True when the material is so matte that light of a small lamp may be treated as light from all sides.
 bool is_matte(const Material& m) {
     const bool textured = m.metallic_roughness_texture.texture >= 0 || m.normal_texture.texture >= 0;
     const auto largest = [](vec3 v) { return std::max({v.x, v.y, v.z}); };

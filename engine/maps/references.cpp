@@ -32,8 +32,8 @@ std::vector<Task> split(const ReferenceInput& input) {
     return tasks;
 }
 
-/// Turns the counts of the tasks into the places where each writes first, patch after patch, those of a patch from
-/// begin(patch) on; end(patch, place) learns where they end.
+/// Turns the counts of the tasks into the places at which each task writes first: for each patch they begin at
+/// begin(patch), and end(patch, place) is called with their end.
 template <class Begin, class End>
 void place_counts(std::vector<Task>& tasks, size_t patches, const Begin& begin, const End& end) {
     for (size_t p = 0; p < patches; ++p) {

@@ -15,7 +15,7 @@ struct References {
 /// All references to the photons, by the rule of PatchFinder.
 References find_references(const ReferenceInput& input);
 
-/// References per photon from about `samples` photons spread over the whole set.
+/// The mean number of references per photon, from about `samples` photons spread over the whole set.
 double sample_references(const ReferenceInput& input, size_t samples);
 
 /// The partition with smaller radii of small patches, until references per photon stay below 2.3.

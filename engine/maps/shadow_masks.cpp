@@ -12,9 +12,10 @@
 namespace lw {
 namespace {
 
-constexpr float even_tint = 0.02f;  // largest difference within a mask
+constexpr float even_tint = 0.02f;  // largest difference between colours within a mask
 
-/// The bits of the four corners of a cell for one lamp: what the surroundings see, and what the nodes themselves see.
+/// The visibility bits of the four corners of a cell for one lamp, joined: of the surroundings of the nodes, and of the
+/// nodes themselves.
 struct CornerBits {
     uint around = 0, own = 0;
 };
@@ -54,7 +55,7 @@ class MaskRays {
         return bits;
     }
 
-    /// Light of a lamp that reaches texel (i, j) of a cell.
+    /// The part of a lamp's light, RGB, that reaches point (i, j) of a cell's mask.
     vec3 look(uint m, vec2 cell, uint lamp, uint i, uint j) const {
         const SurfaceGrid& grid = grids_[m];
         const vec2 texel = (vec2(float(i), float(j)) + 0.5f) / float(shadow_mask_side);
@@ -91,7 +92,7 @@ class MaskRays {
         return mask;
     }
 
-    /// One look for every four texels: true when all are wholly lit, or all dark.
+    /// A test with one ray for every four points: true when all are fully lit (`lit`), or all dark.
     bool is_uniform(uint m, vec2 cell, uint lamp, bool lit) const {
         for (uint j = 0; j < shadow_mask_side; j += 2)
             for (uint i = 0; i < shadow_mask_side; i += 2)

@@ -12,7 +12,7 @@ namespace lw {
 namespace {
 
 constexpr float max_record = 32768;  // RGB9E5 goes to 65408
-constexpr float min_steps = 1.5f;    // of the lattice in a kernel's radius: at 1 the focus of a glass ball lost 0.5 %
+constexpr float min_steps = 1.5f;    // lattice steps, least kernel radius: at 1 the focus of a glass ball lost 0.5 %
 
 /// What shaders/caustics.glsl gathers, at lattice nodes, lamp by lamp.
 class CausticNodes {
@@ -55,7 +55,7 @@ class CausticNodes {
         return std::any_of(light.begin(), light.end(), [&](const vec3& e) { return largest(e) > 0; });
     }
 
-    /// As records keep it: lux per unit intensity x irradiance_scale, per lamp.
+    /// The caustic light at a node per lamp, in the unit of records: lux for intensity 1 times irradiance_scale.
     std::vector<vec3> light_at_node(uint m, uint node, const SurfaceGrid& grid, vec3 local, float radius) const {
         std::vector<vec3> light(lamps_, vec3(0));
         const float r2 = radius * radius, wide = std::min(4 * radius / grid.radius, 1.0f);

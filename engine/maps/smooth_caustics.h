@@ -1,5 +1,5 @@
-// Caustic light where it is smooth joins the lattice nodes, so that a frame gathers caustic photons only where they are
-// dense.
+// Adds caustics to the lattice nodes where they are smooth, so that a frame gathers caustic photons only where they are
+// sharp.
 #pragma once
 #include "maps/irradiance.h"
 

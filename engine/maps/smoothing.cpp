@@ -10,16 +10,16 @@ namespace lw {
 namespace {
 
 constexpr float spread2 = 2.5f;    // variance of the weights over distance, nodes squared
-constexpr float noise = 0.12f;     // relative: twice that of 300 photons
-constexpr float darkest = 1e-30f;  // keeps quotients numbers
+constexpr float noise = 0.12f;     // relative noise of a node: twice that of 300 photons
+constexpr float darkest = 1e-30f;  // avoids 0 / 0
 
-/// exp(-x) as (1 - x / 16)^16: a Gaussian that ends, without a call of the library.
+/// Approximates exp(-x) by (1 - x / 16)^16, which reaches 0 and needs no library call.
 float ending_exponential(float x) {
     const float t = positive(1 - x / 16), t2 = t * t, t4 = t2 * t2, t8 = t4 * t4;
     return t8 * t8;
 }
 
-/// The weights of the nodes `dx` to the right of a row's in another row, times `weight`.
+/// For each node of a row, `weight` times the filter weight of the node in another row that lies dx to the right.
 LW_WIDE_VECTORS void weigh(const float* own, const float* other, const float* exists, float weight,
                            std::vector<float>& weights) {
     float* w = weights.data();

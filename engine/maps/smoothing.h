@@ -1,6 +1,5 @@
-// Takes the mottle out of estimates at the nodes of a lattice: a bilateral filter (Tomasi & Manduchi 1998). Each node
-// is averaged with those around that differ by no more than the noise of the estimate may explain; gradients and edges
-// stay.
+// Smooths the noise of estimates at the nodes of a lattice with a bilateral filter (Tomasi & Manduchi 1998). Each node
+// is averaged with those around it that differ by no more than the noise explains; gradients and edges are kept.
 #pragma once
 #include <vector>
 
@@ -33,7 +32,7 @@ class LatticePlanes {
     std::vector<float> values_;
 };
 
-/// Smooths all planes of `light` with the same weights, which follow the one plane of `brightness`; nodes whose
+/// Smooths all planes of `light` with the same weights, which depend on `brightness` (one plane). Nodes whose
 /// `existence` (one plane) is 0 do not count.
 LatticePlanes smooth(const LatticePlanes& light, const LatticePlanes& brightness, const LatticePlanes& existence);
 

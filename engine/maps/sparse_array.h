@@ -1,4 +1,4 @@
-// Words of which many are zero, as a bit for each and those that are not.
+// An array of 32-bit words of which many are zero: one bit per word, and the words that are not zero.
 #pragma once
 #include <bit>
 #include <cassert>
@@ -10,10 +10,10 @@
 
 namespace lw {
 
-/// Marks and values are what a file holds; accept() makes them readable.
+/// `marks` and `values` are what a file holds. accept() must be called before words are read.
 struct SparseArray {
-    std::vector<uint> marks;   // 32 words each, the first at the lowest bit
-    std::vector<uint> values;  // of the marked words, in order
+    std::vector<uint> marks;   // one bit per word that is not zero, 32 words an entry, the first in the lowest bit
+    std::vector<uint> values;  // the marked words, in order
 
     SparseArray() = default;
     explicit SparseArray(std::span<const uint> words) : marks((words.size() + 31) / 32, 0) {
@@ -24,7 +24,8 @@ struct SparseArray {
             if (word) values.push_back(word);
     }
 
-    /// False when these are not `count` words: marks beyond them, or another number of values than of marks.
+    /// Prepares reading. Returns false when marks and values are not those of `count` words: a mark lies beyond them,
+    /// or the number of values is not that of marks.
     bool accept(uint64_t count) {
         if (marks.size() != (count + 31) / 32 || (count % 32 != 0 && marks.back() >> (count % 32) != 0)) return false;
         return find_starts() == values.size();
@@ -55,7 +56,7 @@ struct SparseArray {
         for (uint mark : marks) starts_.push_back(found), found += uint64_t(std::popcount(mark));
         return found;
     }
-    std::vector<uint64_t> starts_;  // of the values of each mark
+    std::vector<uint64_t> starts_;  // index in `values` of the first word of each entry of `marks`
 };
 
 }  // namespace lw

@@ -21,7 +21,7 @@ class LampRays {
   public:
     LampRays(const Scene& scene, const RayCaster& caster) : scene_(scene), caster_(caster), emitters_(scene) {}
 
-    /// The bits of one lamp at a receiver.
+    /// The visibility bits (some_visible, some_hidden) of one lamp at a receiver.
     uint look(uint lamp, const Receiver& receiver, Rng& rng) const {
         uint bits = 0;
         const int rays = is_delta(scene_.lights[lamp].type) ? 1 : rays_to_mesh;
@@ -44,7 +44,8 @@ class LampRays {
     Emitters emitters_;
 };
 
-/// Adds what each node sees to its surroundings' bits, and to its own.
+/// Fills the bits of all nodes of a lattice: own[node] as the node's own bits, joined with those of its 3 x 3
+/// neighbours as the bits of its surroundings.
 void spread(const SurfaceLattice& lattice, uint words, const std::vector<uint>& own, std::vector<uint>& joined) {
     const int columns = int(lattice.columns), rows = int(lattice.rows);
     for (uint i = lattice.first_node * words; i < (lattice.first_node + lattice.columns * lattice.rows) * words; ++i)

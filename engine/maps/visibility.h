@@ -1,5 +1,5 @@
-// Which lamps the surface around each lattice node sees: all of it, none, or part. Only where part of it does must a
-// gather trace shadow rays.
+// Finds which lamps are seen from the surface around each lattice node: from all of it, from none, or from part. A
+// gather needs shadow rays only where part of it sees a lamp.
 #pragma once
 #include <vector>
 

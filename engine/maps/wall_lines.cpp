@@ -14,12 +14,12 @@
 namespace lw {
 namespace {
 
-constexpr float min_wall = 1;        // radius: shorter things (legs, boards of furniture) cut nothing
-constexpr float tolerance = 0.002f;  // of the radius: segments as close to a line lie on it
+constexpr float min_wall = 1;        // in radii: shorter things (legs and boards of furniture) cut nothing
+constexpr float tolerance = 0.002f;  // in radii: segments this close to a line lie on it
 constexpr float min_chord = 0.3f;    // radius
 constexpr float max_chord = 8;       // radii
-constexpr float min_round_wall = 1;  // radius, along the wall
-constexpr float steep = 0.7f;        // largest cosine between the normals of a wall and of what it stands on
+constexpr float min_round_wall = 1;  // in radii, along the wall
+constexpr float steep = 0.7f;        // largest cosine between the normals of a wall and of the surface it stands on
 constexpr size_t max_lines = 255, max_tried = 512;
 
 struct Segment {
@@ -28,15 +28,15 @@ struct Segment {
     vec2 a, b;  // in the frame of the patch
 };
 
-/// Whether walls may stand on a patch: it is plane, and no small piece of furniture.
+/// True when a patch may be cut: it is plane and not small.
 bool may_be_cut(const PatchShape& shape, float radius) {
     const vec3 size = shape.high - shape.low;
     return shape.cos_spread > 0.999f && size.z <= height_of_cuts(radius) &&
            std::max(size.x, size.y) > min_wall * radius;
 }
 
-/// Where a triangle that crosses the plane a little above the patch meets the patch, clipped to it and its
-/// surroundings.
+/// Sets `segment` to the line where a triangle stands on a patch: its intersection with a plane a little above the
+/// patch, clipped to the patch and its surroundings. Returns false when there is none.
 bool crossing(const PatchShape& shape, const std::array<vec3, 3>& corners, float radius, Segment& segment) {
     std::array<vec3, 3> local;
     const float plane = shape.high.z + height_of_cuts(radius);
@@ -60,13 +60,13 @@ bool crossing(const PatchShape& shape, const std::array<vec3, 3>& corners, float
         last = std::min(last, std::max(low / d[axis], high / d[axis]));
     }
     if (!(first < last)) return false;
-    const vec3 n = edge_product(local[0], local[1], local[2]);  // of the wall: it may lean
+    const vec3 n = edge_product(local[0], local[1], local[2]);  // normal of the wall, which may lean
     const vec2 foot = vec2(n) * (n.z * height_of_cuts(radius) / std::max(n.x * n.x + n.y * n.y, 1e-30f));
     segment.a = ends[0] + d * first + foot, segment.b = ends[0] + d * last + foot;
     return true;
 }
 
-/// The segments along which triangles stand on patches, sorted by patch, the longest first.
+/// All segments along which triangles stand on patches, sorted by patch, the longest first.
 std::vector<Segment> find_segments(const Scene& scene, float radius, const std::vector<PatchShape>& shapes) {
     std::vector<Box> slabs;
     for (const PatchShape& s : shapes) {
@@ -99,7 +99,8 @@ std::vector<Segment> find_segments(const Scene& scene, float radius, const std::
     return segments;
 }
 
-/// Which lines of like direction and place lie a segment's: cells of 2 degrees and a twentieth of the radius.
+/// The bin of a segment's line, by direction and distance from the origin: 2 degrees and a twentieth of the radius
+/// wide.
 glm::ivec2 bin_of(const Segment& s, float radius) {
     vec2 along = s.b - s.a;
     if (along.x < 0 || (along.x == 0 && along.y < 0)) along = -along;
@@ -125,8 +126,9 @@ void join_stretches(WallLine& line, float radius, float least) {
         }
 }
 
-/// The longest chord from `start` that the wall beyond it, which sets out along `ahead`, keeps close to (the cone of
-/// directions that pass all its points, Williams 1978); halfway between the wall's points on either side of it.
+/// The longest chord from `start` to which the wall that begins there along `ahead` stays close. Found with the cone of
+/// directions that pass all points of the wall (Williams 1978); the chord lies halfway between the points of the wall
+/// on either side.
 WallLine chord_from(std::span<const Segment> segments, const std::vector<char>& taken, vec2 start, vec2 ahead,
                     float radius) {
     std::vector<std::array<vec2, 2>> walls;  // the end closer to `start` first
@@ -160,7 +162,7 @@ WallLine chord_from(std::span<const Segment> segments, const std::vector<char>& 
     return chord;
 }
 
-/// Whether a chord's wall goes on at one of its ends, bent by less than 45 degrees, in another chord.
+/// True when the wall of chord x goes on in chord y: they meet at an end, bent by less than 45 degrees.
 bool goes_on(const WallLine& x, const WallLine& y, float radius) {
     if (std::abs(dot(x.along, y.along)) < 0.7f) return false;
     const auto distance_to = [&](vec2 p) {
@@ -171,8 +173,8 @@ bool goes_on(const WallLine& x, const WallLine& y, float radius) {
                     distance_to(x.point + x.along * x.stretches[0].y)) < 4 * width_of_chords(radius);
 }
 
-/// Adds chords for the segments that no straight line took, where they make up a long enough wall. Each begins where
-/// the one before ends: then what one cuts off lies beside what the next does.
+/// Adds chords for the segments that no straight line covers, where they form a long enough wall. Each chord begins
+/// where the one before ends, so that the pieces they cut off lie side by side.
 void add_chords(std::span<const Segment> segments, std::vector<char>& taken, float radius,
                 std::vector<WallLine>& lines) {
     std::vector<WallLine> chords;
@@ -208,7 +210,7 @@ void add_chords(std::span<const Segment> segments, std::vector<char>& taken, flo
     }
 }
 
-/// The lines on which long enough walls stand, from the segments of one patch.
+/// Finds the lines on which long enough walls stand, from the segments of one patch.
 std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius) {
     std::unordered_map<uint64_t, float> lengths;
     const auto key = [](glm::ivec2 bin) { return uint64_t(uint(bin.x)) << 32 | uint(bin.y); };

@@ -1,15 +1,16 @@
-// Where walls stand on plane patches: straight lines, and chords of round walls.
+// Finds where walls stand on plane patches, as straight lines, and as chords of round walls.
 #pragma once
 #include "maps/patches.h"
 
 namespace lw {
 
-/// A line with the stretches of it where walls stand, in metres from `point` along `along`, in the frame of a patch.
+/// A line in the frame of a patch, and its stretches on which walls stand: each from x to y, in m from `point` along
+/// the unit vector `along`.
 struct WallLine {
     vec2 point, along;
     std::vector<vec2> stretches;
-    float length = 0;       // of the longest stretch
-    bool is_chord = false;  // of a round wall: it has one stretch
+    float length = 0;       // of the longest stretch, m
+    bool is_chord = false;  // a chord of a round wall, which has one stretch
 
     float height(vec2 p) const { return along.x * (p.y - point.y) - along.y * (p.x - point.x); }
 };
