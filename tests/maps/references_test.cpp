@@ -7,6 +7,7 @@
 
 #include "benchmark/rooms.h"
 #include "maps/build.h"
+#include "maps/places_in_room.h"
 #include "photons/shoot.h"
 
 namespace lw {
@@ -63,6 +64,37 @@ TEST(References, AreWithinTheRadiusOfTheirPatch) {
             const vec3 outside = max(max(shape.low - local, local - shape.high), vec3(0));
             EXPECT_LE(length(outside), 1.0001f * room.partition.radii[p]) << p;
         }
+}
+
+TEST(References, AreThoseOfEveryPatchAndPhotonByTheRule) {
+    const test::RoomPatches& room = test::furnished_room();
+    const RayCaster caster(room.scene);
+    const std::vector<Photon> photons = test::places_in(room, 5'000);
+    const References found = find_references({room.scene, caster, room.partition, photons});
+    size_t present = 0, absent = 0;
+    for (uint patch = 0; patch < room.partition.patches.count; ++patch) {
+        const std::vector<uint> held(found.photons.begin() + int64_t(found.starts[patch]),
+                                     found.photons.begin() + int64_t(found.starts[patch + 1]));
+        for (uint i = 0; i < photons.size(); ++i) {
+            const bool is_held = std::find(held.begin(), held.end(), i) != held.end();
+            const uint own =
+                room.partition.patches.at(2 * photons[i].triangle + photons[i].side(), photons[i].position);
+            const auto belonging = test::belonging_of(room, photons[i], patch);
+            const bool may_be_hidden =
+                dot(room.partition.shapes[own].normal, room.partition.shapes[patch].normal) > 0.99f;  // by a wall
+            if (own == patch) {
+                EXPECT_TRUE(is_held || !room.partition.shapes[own].outline.empty()) << patch << " " << i;
+            } else if (belonging == test::Belonging::no) {
+                EXPECT_FALSE(is_held) << patch << " " << i;
+                ++absent;
+            } else if (belonging == test::Belonging::sure && !may_be_hidden) {
+                EXPECT_TRUE(is_held) << patch << " " << i;
+                ++present;
+            }
+        }
+    }
+    EXPECT_GT(present, 1000u);
+    EXPECT_GT(absent, 100'000u);
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ class Bins {
         for (double e : expected_) total += e;
         for (size_t i = 0; i < sum_.size(); ++i) {
             if (expected_[i] < 1e-9 * total) {
-                EXPECT_LT(sum_[i], 1e-4 * total) << what << ", bin " << i;
+                EXPECT_LT(sum_[i], 1e-3 * total) << what << ", bin " << i;
             }
             if (expected_[i] < 1e-4 * total || !(squares_[i] > 0)) continue;
             chi2 += (sum_[i] - expected_[i]) * (sum_[i] - expected_[i]) / squares_[i];
