@@ -23,8 +23,8 @@ struct PictureSize {
     int width = 0, height = 0;
 };
 
-/// What a PNG, JPEG, BMP or other picture that stb_image knows says of itself, without decoding it; nothing when it is
-/// none of these or larger than 1 GiB.
+/// The size that a WebP, PNG, JPEG, BMP or other picture that stb_image knows gives of itself, without decoding it;
+/// nothing when it is none of these or larger than 1 GiB.
 std::optional<PictureSize> size_of_encoded(std::span<const uint8_t> bytes);
 
 }  // namespace lw
