@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/replaced_file.h"
+#include "image/webp.h"
 
 // Static: libtinygltf.so exports the same symbols.
 #define STB_IMAGE_WRITE_STATIC
@@ -69,6 +70,10 @@ Rgb8Image read_png(const std::filesystem::path& path) {
 }
 
 std::optional<PictureSize> size_of_encoded(std::span<const uint8_t> bytes) {
+    if (is_webp(bytes)) {
+        const std::optional<WebpImage> image = decode_webp(bytes, false);
+        return image ? std::optional(PictureSize{image->width, image->height}) : std::nullopt;
+    }
     PictureSize size;
     if (bytes.size() > size_t(1) << 30 ||
         !stbi_info_from_memory(bytes.data(), int(bytes.size()), &size.width, &size.height, nullptr))

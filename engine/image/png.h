@@ -23,8 +23,8 @@ struct PictureSize {
     int width = 0, height = 0;
 };
 
-/// The size in pixels that an encoded PNG, JPEG, BMP or other picture states, read without decoding the picture.
-/// Nothing when stb_image does not know the format or `bytes` is longer than 1 GiB.
+/// The size that a WebP, PNG, JPEG, BMP or other picture that stb_image knows gives of itself, without decoding it;
+/// nothing when it is none of these or larger than 1 GiB.
 std::optional<PictureSize> size_of_encoded(std::span<const uint8_t> bytes);
 
 }  // namespace lw

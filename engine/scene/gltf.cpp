@@ -6,14 +6,19 @@
 #include "base/one_line.h"
 #include "scene/content_hash.h"
 #include "scene/gltf_cameras.h"
+#include "scene/gltf_compression.h"
+#include "scene/gltf_extensions.h"
 #include "scene/gltf_geometry.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 
 namespace lw {
 
-Scene load_gltf(const std::filesystem::path& path) try {
-    GltfFile file = open_gltf(path);
+Scene load_gltf(const std::filesystem::path& path, const GltfSettings& settings) try {
+    GltfFile file = open_gltf(path, settings.strict);
+    decode_meshopt_views(file);
+    decode_draco_primitives(file);
+    if (!settings.variant.empty()) choose_variant(file, settings.variant);
     Scene scene;
     scene.path = path;
     scene.files = std::move(file.read);

@@ -105,9 +105,8 @@ bool stays_in_folder(const std::string& uri) {
     std::replace(text.begin(), text.end(), '\\', '/');
     if (text.starts_with('/') || text.find("://") != std::string::npos || (text.size() > 1 && text[1] == ':'))
         return false;
-    for (const auto& part : std::filesystem::path(text))
-        if (part == "..") return false;
-    return true;
+    const std::filesystem::path normal = std::filesystem::path(text).lexically_normal();  // a/../b is b
+    return normal.empty() || *normal.begin() != "..";
 }
 
 void check_uris(const GltfFile& file, const Json& root, const char* kind) {
@@ -121,18 +120,26 @@ void check_uris(const GltfFile& file, const Json& root, const char* kind) {
     }
 }
 
-/// Checks that tinygltf leaves out, before it decodes anything: extensionsRequired, and that URIs stay in the folder.
-void check_before_parsing(GltfFile& file, const Json& root) {
+std::string ignored_extension(const std::string& extension) {
+    return "the extension " + extension + " is ignored; the look may differ";
+}
+
+/// What must be known before tinygltf decodes anything: it checks neither extensionsRequired nor where URIs lead.
+void check_before_parsing(GltfFile& file, const Json& root, bool strict) {
     const auto asset = root.find("asset");
     const bool has_version =
         asset != root.end() && asset->is_object() && asset->contains("version") && (*asset)["version"].is_string();
     const std::string version = has_version ? (*asset)["version"].get<std::string>() : "";
     if (!version.starts_with("2."))
         file.fail(version.empty() ? "has no asset.version" : "is glTF " + version + ", not 2.0");
-    for (const std::string& extension : strings_of(root, "extensionsRequired"))
-        if (!reads_extension(extension)) file.fail("requires the extension " + extension + ", which is not supported");
+    for (const std::string& extension : strings_of(root, "extensionsRequired")) {
+        if (reads_extension(extension)) continue;
+        if (strict || may_change_geometry(extension))
+            file.fail("requires the extension " + extension + ", which is not supported");
+        file.warn(ignored_extension(extension));
+    }
     for (const std::string& extension : strings_of(root, "extensionsUsed"))
-        if (changes_look(extension)) file.warn("the extension " + extension + " is ignored; the look may differ");
+        if (changes_look(extension)) file.warn(ignored_extension(extension));
     if (has_version && asset->contains("minVersion") && (*asset)["minVersion"] != "2.0")
         file.fail("needs a reader of glTF " + (*asset)["minVersion"].dump() + ", not 2.0");
     check_ranges(file, root);
@@ -168,7 +175,51 @@ bool replace_unreadable_images(Json& root) {
     return replaced;
 }
 
-/// The bytes of the glTF file with its JSON replaced by `text`.
+/// Gives the fallback buffers of compressed views, which have no bytes, a byte: tinygltf refuses a buffer without any.
+/// True when there were some.
+bool replace_fallback_buffers(Json& root) {
+    const auto buffers = root.find("buffers");
+    if (buffers == root.end() || !buffers->is_array()) return false;
+    bool replaced = false;
+    for (Json& buffer : *buffers) {
+        if (!buffer.is_object() || buffer.contains("uri")) continue;
+        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+            const Json::json_pointer place(std::string("/extensions/") + name + "/fallback");
+            if (!buffer.contains(place) || buffer.at(place) != true) continue;
+            buffer["uri"] = "data:application/octet-stream;base64,AA==";
+            buffer["byteLength"] = 1;
+            replaced = true;
+        }
+    }
+    return replaced;
+}
+
+/// Lets the accessors of primitives compressed by Draco, which have no buffer view of their own, name the compressed
+/// one: tinygltf refuses an accessor without any. True when there were some.
+bool name_draco_views(Json& root) {
+    bool named = false;
+    const auto name = [&](const Json& accessor, const Json& view) {
+        if (!accessor.is_number_unsigned() || !root.contains("accessors") || !root["accessors"].is_array()) return;
+        Json& accessors = root["accessors"];
+        if (accessor.get<uint64_t>() >= accessors.size() || !accessors[accessor.get<size_t>()].is_object()) return;
+        Json& record = accessors[accessor.get<size_t>()];
+        if (record.contains("bufferView")) return;
+        record["bufferView"] = view;
+        named = true;
+    };
+    const Json meshes = root.contains("meshes") && root["meshes"].is_array() ? root["meshes"] : Json::array();
+    const Json::json_pointer draco_view("/extensions/KHR_draco_mesh_compression/bufferView");
+    for (const Json& mesh : meshes)
+        for (const Json& primitive : mesh.is_object() ? mesh.value("primitives", Json::array()) : Json::array()) {
+            if (!primitive.is_object() || !primitive.contains(draco_view)) continue;
+            name(primitive.value("indices", Json()), primitive.at(draco_view));
+            const Json attributes = primitive.value("attributes", Json::object());
+            for (const auto& [key, accessor] : attributes.items()) name(accessor, primitive.at(draco_view));
+        }
+    return named;
+}
+
+/// The file with another JSON text.
 std::vector<unsigned char> with_json(const std::vector<unsigned char>& bytes, std::string text) {
     if (!is_binary(bytes)) return {text.begin(), text.end()};
     text.resize((text.size() + 3) / 4 * 4, ' ');
@@ -237,13 +288,15 @@ void GltfFile::warn(const std::string& what) {
     if (std::find(warnings.begin(), warnings.end(), line) == warnings.end()) warnings.push_back(line);
 }
 
-GltfFile open_gltf(const std::filesystem::path& path) {
+GltfFile open_gltf(const std::filesystem::path& path, bool strict) {
     GltfFile file;
     file.name = path.filename().string();
     std::vector<unsigned char> bytes = read_bytes(path);
     Json root = parse_json(file, json_text(file, bytes));
-    check_before_parsing(file, root);
-    if (replace_unreadable_images(root)) bytes = with_json(bytes, root.dump());
+    check_before_parsing(file, root, strict);
+    const bool images = replace_unreadable_images(root), buffers = replace_fallback_buffers(root),
+               accessors = name_draco_views(root);
+    if (images || buffers || accessors) bytes = with_json(bytes, root.dump());
 
     ExternalFiles files{std::filesystem::absolute(path).parent_path().string(), {path}};
     std::string error, unused;

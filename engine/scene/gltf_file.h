@@ -31,8 +31,9 @@ struct GltfFile {
 };
 
 /// Reads and parses a .glb or .gltf (told apart by content) with its external buffers; images stay encoded in
-/// Image::image. Throws Error for a truncated file, an unsupported extensionsRequired entry, a URI out of the folder.
-GltfFile open_gltf(const std::filesystem::path& path);
+/// Image::image. Throws Error for a truncated file, a URI out of the folder, and a required extension that is not read:
+/// when it may change the geometry, or any when `strict`.
+GltfFile open_gltf(const std::filesystem::path& path, bool strict);
 
 /// Throws Error("NAME: WHAT take 5 GB, there are 4 GB") when `bytes` are more than the memory available. Called before
 /// a large allocation.

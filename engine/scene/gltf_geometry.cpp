@@ -1,11 +1,12 @@
 #include "scene/gltf_geometry.h"
 
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 #include <optional>
 
-#include "scene/gltf_primitive.h"
+#include "scene/gltf_skins.h"
 
 namespace lw {
 namespace {
@@ -28,46 +29,62 @@ void check_counts(const GltfFile& file, uint64_t vertices, uint64_t triangles) {
                  vertices * bytes_per_vertex + triangles * bytes_per_triangle);
 }
 
-std::vector<PlacedMesh> place_meshes(GltfFile& file, const std::vector<PlacedNode>& nodes, const Scene& scene,
-                                     std::map<int, LocalMesh>& meshes) {
-    std::vector<PlacedMesh> placed;
-    uint64_t vertices = 0, triangles = 0;
-    for (const PlacedNode& at : nodes) {
-        const tinygltf::Node& node = file.model.nodes[at.node];
-        if (node.mesh < 0) continue;
-        const std::string where = label("node", at.node, node.name);
-        if (size_t(node.mesh) >= file.model.meshes.size())
-            file.fail(where + ": there is no mesh " + std::to_string(node.mesh));
-        if (node.skin >= 0) file.warn("skins are ignored, figures stand in their bind pose");
-        const auto [it, is_new] = meshes.try_emplace(node.mesh);
-        const tinygltf::Mesh& source = file.model.meshes[size_t(node.mesh)];
-        if (is_new)
-            for (size_t i = 0; i < source.primitives.size(); ++i) {
-                if (!source.primitives[i].targets.empty())
-                    file.warn("morph targets are ignored, meshes keep their base shape");
-                it->second.push_back(decode_primitive(file, size_t(node.mesh), i, scene));
-                vertices += it->second.back().positions.size();
-                triangles += it->second.back().triangles.size();
-                check_counts(file, vertices, triangles);
-            }
-        for (const glm::dmat4& world : instances_of(file, at)) placed.push_back({at.node, &it->second, world});
+/// The meshes of a file, each decoded once for each pose that a node shows it in.
+class MeshStore {
+  public:
+    MeshStore(GltfFile& file, const Scene& scene) : file_(file), scene_(scene) {}
+
+    /// The mesh of a node, and where it stands.
+    std::vector<PlacedMesh> place(const PlacedNode& at) {
+        const tinygltf::Node& node = file_.model.nodes[at.node];
+        std::vector<PlacedMesh> placed;
+        if (node.mesh < 0) return placed;
+        if (size_t(node.mesh) >= file_.model.meshes.size())
+            file_.fail(label("node", at.node, node.name) + ": there is no mesh " + std::to_string(node.mesh));
+        const LocalMesh& mesh = decoded(node);
+        if (node.skin >= 0) return {pose(at.node, node.skin, mesh)};
+        for (const glm::dmat4& world : instances_of(file_, at)) placed.push_back({at.node, &mesh, world});
+        return placed;
     }
-    return placed;
-}
+
+  private:
+    const LocalMesh& decoded(const tinygltf::Node& node) {
+        const tinygltf::Mesh& source = file_.model.meshes[size_t(node.mesh)];
+        const MeshPose pose{node.weights.empty() ? source.weights : node.weights, node.skin >= 0};
+        const auto [it, is_new] = meshes_.try_emplace({node.mesh, pose});
+        for (size_t i = 0; is_new && i < source.primitives.size(); ++i)
+            add(it->second, decode_primitive(file_, size_t(node.mesh), i, pose, scene_));
+        return it->second;
+    }
+
+    PlacedMesh pose(size_t node, int skin, const LocalMesh& mesh) {
+        if (worlds_.empty()) worlds_ = world_matrices(file_);
+        const std::vector<glm::dmat4> joints = joint_matrices(file_, skin, worlds_);
+        if (joints.empty()) file_.fail("skin " + std::to_string(skin) + " has no joints");
+        const glm::dvec3 anchor(worlds_[size_t(file_.model.skins[size_t(skin)].joints[0])][3]);
+        LocalMesh& result = posed_.emplace_back();
+        for (const LocalPrimitive& primitive : mesh) add(result, posed(file_, primitive, joints, anchor));
+        glm::dmat4 world(1);
+        world[3] = glm::dvec4(anchor, 1);
+        return {node, &result, world};
+    }
+
+    void add(LocalMesh& mesh, LocalPrimitive primitive) {
+        vertices_ += primitive.positions.size();
+        triangles_ += primitive.triangles.size();
+        check_counts(file_, vertices_, triangles_);
+        mesh.push_back(std::move(primitive));
+    }
+
+    GltfFile& file_;
+    const Scene& scene_;
+    std::map<std::pair<int, MeshPose>, LocalMesh> meshes_;
+    std::deque<LocalMesh> posed_;  // of skinned nodes, which never share one
+    std::vector<glm::dmat4> worlds_;
+    uint64_t vertices_ = 0, triangles_ = 0;
+};
 
 glm::dvec3 transform_point(const glm::dmat4& m, vec3 p) { return glm::dvec3(m * glm::dvec4(glm::dvec3(p), 1)); }
-
-/// Cofactors times the sign of the determinant: the inverse transpose up to a positive factor, also when singular.
-glm::dmat3 normal_matrix(const glm::dmat4& world) {
-    const glm::dmat3 m(world);
-    const double sign = glm::determinant(m) < 0 ? -1 : 1;
-    return sign * glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-}
-
-vec3 unit_or(glm::dvec3 v, vec3 otherwise) {
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? vec3(v / length) : otherwise;
-}
 
 void find_origin(const GltfFile& file, const std::vector<PlacedMesh>& placed, Scene& scene) {
     uint64_t vertices = 0, triangles = 0;  // counted before anything is done with them
@@ -150,8 +167,10 @@ uint material_of(const LocalPrimitive& p, Scene& scene, std::optional<uint>& def
 }  // namespace
 
 std::vector<size_t> load_geometry(GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene) {
-    std::map<int, LocalMesh> meshes;
-    const std::vector<PlacedMesh> placed = place_meshes(file, nodes, scene, meshes);
+    MeshStore meshes(file, scene);
+    std::vector<PlacedMesh> placed;
+    for (const PlacedNode& at : nodes)
+        for (const PlacedMesh& mesh : meshes.place(at)) placed.push_back(mesh);
     find_origin(file, placed, scene);
     std::optional<uint> default_index;
     std::vector<size_t> object_nodes;

@@ -13,11 +13,6 @@
 namespace lw {
 namespace {
 
-vec3 unit_or(glm::dvec3 v, vec3 otherwise) {
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? vec3(v / length) : otherwise;
-}
-
 Light punctual_light(const GltfFile& file, const tinygltf::Light& source, const PlacedNode& at,
                      const std::string& where, const Scene& scene) {
     Light light{};

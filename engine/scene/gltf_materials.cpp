@@ -9,7 +9,7 @@ namespace lw {
 namespace {
 
 vec3 vector_of(const tinygltf::Value& object, const std::string& key, vec3 otherwise) {
-    if (!object.Has(key) || object.Get(key).ArrayLen() != 3) return otherwise;
+    if (!object.Has(key) || object.Get(key).ArrayLen() < 3) return otherwise;
     const tinygltf::Value& array = object.Get(key);
     return {float(array.Get(0).GetNumberAsDouble()), float(array.Get(1).GetNumberAsDouble()),
             float(array.Get(2).GetNumberAsDouble())};
@@ -52,6 +52,34 @@ void read_extensions(const tinygltf::Material& source, Material& m) {
         m.flags |= material_unlit;
         m.emissive = vec3(0);
     }
+}
+
+/// KHR_materials_pbrSpecularGlossiness as a dielectric that reflects its specular colour at normal incidence: index of
+/// refraction 0, as KHR_materials_ior has it for this conversion.
+void read_specular_glossiness(GltfFile& file, TextureLoader& loader, const tinygltf::Material& source,
+                              const std::string& where, Material& m) {
+    const auto* e = extension_of(source.extensions, "KHR_materials_pbrSpecularGlossiness");
+    if (!e) return;
+    m.base_color = glm::clamp(vector_of(*e, "diffuseFactor", vec3(1)), 0.0f, 1.0f);
+    m.alpha = e->Has("diffuseFactor") && e->Get("diffuseFactor").ArrayLen() == 4
+                  ? unit(e->Get("diffuseFactor").Get(3).GetNumberAsDouble())
+                  : 1.0f;
+    const float glossiness = unit(number_of(*e, "glossinessFactor", 1));
+    m.metallic = 0;
+    m.roughness = 1 - glossiness;
+    m.specular = 1;
+    m.specular_color = glm::clamp(vector_of(*e, "specularFactor", vec3(1)), 0.0f, 1.0f);
+    m.ior = 0;
+    m.base_color_texture = loader.slot(texture_info(*e, "diffuseTexture"), true, where + ": diffuseTexture");
+    m.metallic_roughness_texture = no_texture();
+    const tinygltf::TextureInfo reference = texture_info(*e, "specularGlossinessTexture");
+    if (reference.index < 0) return;
+    const GlossinessTexture texture = loader.glossiness(reference, glossiness, where + ": specularGlossinessTexture");
+    if (texture.roughness.texture < 0) return;
+    m.metallic_roughness_texture = texture.roughness;
+    m.roughness = 1;
+    m.specular_color *= texture.mean_specular;
+    file.warn(where + ": the colours of the specularGlossinessTexture are replaced by their mean");
 }
 
 /// KHR_materials_volume: transmissive surfaces are thin sheets unless the material has a thickness; the light inside
@@ -132,6 +160,8 @@ void load_materials(GltfFile& file, Scene& scene) {
         read_extensions(source, m);
         read_volume(file, source, where, m);
         read_textures(loader, source, where, m);
+        read_specular_glossiness(file, loader, source, where, m);
+        if (loader.is_black(m.emissive_texture)) m.emissive = vec3(0), m.emissive_texture = no_texture();  // no lamp
         warn_about_ignored_textures(file, source, where);
         if (!std::isfinite(m.ior) || (m.ior != 0 && m.ior < 1)) file.fail(where + ": ior must be 0 or at least 1");
         if (!std::isfinite(m.emissive.x + m.emissive.y + m.emissive.z))

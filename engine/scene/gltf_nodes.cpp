@@ -18,14 +18,11 @@ glm::dmat4 compose(glm::dvec3 translation, glm::dquat rotation, glm::dvec3 scale
     return matrix;
 }
 
-glm::dmat4 local_matrix(const tinygltf::Node& node) {
-    if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
-    const auto vector3 = [](const std::vector<double>& v, double otherwise) {
-        return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(otherwise);
-    };
-    const std::vector<double>& r = node.rotation;
-    return compose(vector3(node.translation, 0),
-                   r.size() == 4 ? glm::dquat(r[3], r[0], r[1], r[2]) : glm::dquat(1, 0, 0, 0), vector3(node.scale, 1));
+/// KHR_node_visibility: a node that is not visible hides all below it.
+bool is_hidden(const tinygltf::Node& node) {
+    const tinygltf::Value* extension = extension_of(node.extensions, "KHR_node_visibility");
+    return extension && extension->Has("visible") && extension->Get("visible").IsBool() &&
+           !extension->Get("visible").Get<bool>();
 }
 
 bool is_finite(const glm::dmat4& matrix) {
@@ -52,6 +49,27 @@ std::vector<int> roots(const GltfFile& file) {
 
 }  // namespace
 
+glm::dmat4 local_matrix(const tinygltf::Node& node) {
+    if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
+    const auto vector3 = [](const std::vector<double>& v, double otherwise) {
+        return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(otherwise);
+    };
+    const std::vector<double>& r = node.rotation;
+    return compose(vector3(node.translation, 0),
+                   r.size() == 4 ? glm::dquat(r[3], r[0], r[1], r[2]) : glm::dquat(1, 0, 0, 0), vector3(node.scale, 1));
+}
+
+glm::dmat3 normal_matrix(const glm::dmat4& world) {
+    const glm::dmat3 m(world);
+    const double sign = glm::determinant(m) < 0 ? -1 : 1;
+    return sign * glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+}
+
+vec3 unit_or(glm::dvec3 v, vec3 otherwise) {
+    const double length = glm::length(v);
+    return length > 0 && std::isfinite(length) ? vec3(v / length) : otherwise;
+}
+
 std::vector<PlacedNode> place_nodes(const GltfFile& file) {
     struct Visit {
         int node;
@@ -74,6 +92,7 @@ std::vector<PlacedNode> place_nodes(const GltfFile& file) {
         const tinygltf::Node& node = model.nodes[index];
         if (visited[index]) file.fail(label("node", index, node.name) + ": is its own ancestor or has two parents");
         visited[index] = true;
+        if (is_hidden(node)) continue;
         const glm::dmat4 world = visit.world * local_matrix(node);
         if (!is_finite(world)) file.fail(label("node", index, node.name) + ": the transformation is not finite");
         placed.push_back({index, world, visit.parent});

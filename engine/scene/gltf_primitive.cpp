@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "scene/gltf_accessor.h"
@@ -92,15 +93,18 @@ void repair_normals(LocalPrimitive& p) {
             if (p.normals[t[c]] == vec3(0)) p.normals[t[c]] = face_normal(p, t);
 }
 
-/// Attribute reader of one primitive: rows for the kept vertices, or nothing when the attribute is absent.
+using Attributes = std::map<std::string, int>;  // name to accessor
+
+/// Reader of the attributes of a primitive or of a morph target: rows for the kept vertices, or nothing when the
+/// attribute is absent.
 class AttributeReader {
   public:
-    AttributeReader(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& where)
-        : file_(file), primitive_(primitive), where_(where) {}
+    AttributeReader(const GltfFile& file, const Attributes& attributes, const std::string& where)
+        : file_(file), attributes_(attributes), where_(where) {}
 
     std::optional<FloatRows> rows(const std::string& name, size_t least, size_t most) const {
-        const auto it = primitive_.attributes.find(name);
-        if (it == primitive_.attributes.end()) return {};
+        const auto it = attributes_.find(name);
+        if (it == attributes_.end()) return {};
         FloatRows found = read_floats(file_, it->second, where_ + ": " + name);
         if (found.components < least || found.components > most)
             file_.fail(where_ + ": " + name + " has the wrong type");
@@ -128,7 +132,7 @@ class AttributeReader {
 
   private:
     const GltfFile& file_;
-    const tinygltf::Primitive& primitive_;
+    const Attributes& attributes_;
     const std::string& where_;
 };
 
@@ -147,9 +151,55 @@ void read_optional(const AttributeReader& reader, const std::vector<uint32_t>& k
     if (p.tangents.empty() && !uv.empty()) p.tangents = make_tangents(p.positions, p.normals, uv, p.triangles);
 }
 
+/// Adds the weighted displacements of one attribute of all morph targets.
+template <class V>
+void add_morph(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& name,
+               const std::vector<double>& weights, const std::vector<uint32_t>& kept, size_t vertex_count,
+               const std::string& where, std::vector<V>& values) {
+    if (values.empty()) return;
+    for (size_t t = 0; t < std::min(weights.size(), primitive.targets.size()); ++t) {
+        if (weights[t] == 0) continue;
+        const std::string target = where + ": morph target " + std::to_string(t);
+        const std::vector<vec3> moves =
+            AttributeReader(file, primitive.targets[t], target).gather<3>(name, 3, kept, vertex_count);
+        for (size_t i = 0; i < moves.size(); ++i) {
+            values[i].x += float(weights[t]) * moves[i].x;
+            values[i].y += float(weights[t]) * moves[i].y;
+            values[i].z += float(weights[t]) * moves[i].z;
+        }
+    }
+}
+
+/// The joints and weights of the kept vertices; a vertex without weight follows its first joint.
+std::vector<JointWeights> read_joints(const GltfFile& file, const AttributeReader& reader,
+                                      const std::vector<uint32_t>& kept, size_t vertex_count,
+                                      const std::string& where) {
+    std::vector<JointWeights> all(kept.size());
+    for (size_t set = 0; set < 2; ++set) {
+        const std::string number = std::to_string(set);
+        const std::optional<FloatRows> joints = reader.rows("JOINTS_" + number, 4, 4);
+        const std::optional<FloatRows> weights = reader.rows("WEIGHTS_" + number, 4, 4);
+        if (!joints || !weights) break;
+        if (joints->count != vertex_count || weights->count != vertex_count)
+            file.fail(where + ": JOINTS_" + number + " or WEIGHTS_" + number + " and POSITION differ in length");
+        for (size_t i = 0; i < kept.size(); ++i)
+            for (size_t c = 0; c < 4; ++c) {
+                const float weight = weights->row(kept[i])[c];
+                all[i].joints[4 * set + c] = uint(joints->row(kept[i])[c]);
+                all[i].weights[4 * set + c] = std::isfinite(weight) ? std::max(weight, 0.0f) : 0.0f;
+            }
+    }
+    for (JointWeights& vertex : all) {
+        const float sum = std::accumulate(vertex.weights.begin(), vertex.weights.end(), 0.0f);
+        if (!(sum > 0)) vertex.weights[0] = 1;
+        for (float& weight : vertex.weights) weight /= sum > 0 ? sum : 1.0f;
+    }
+    return all;
+}
+
 }  // namespace
 
-LocalPrimitive decode_primitive(GltfFile& file, size_t mesh, size_t index, const Scene& scene) {
+LocalPrimitive decode_primitive(GltfFile& file, size_t mesh, size_t index, const MeshPose& pose, const Scene& scene) {
     const tinygltf::Mesh& owner = file.model.meshes[mesh];
     const tinygltf::Primitive& source = owner.primitives[index];
     const std::string where = label("mesh", mesh, owner.name) + ": primitive " + std::to_string(index);
@@ -159,7 +209,7 @@ LocalPrimitive decode_primitive(GltfFile& file, size_t mesh, size_t index, const
 
     LocalPrimitive p;
     p.material = source.material;
-    const AttributeReader reader(file, source, where);
+    const AttributeReader reader(file, source.attributes, where);
     const FloatRows positions = *reader.rows("POSITION", 3, 3);
     p.triangles = read_triangles(file, source, positions.count, where);
     const bool flat = !source.attributes.contains("NORMAL");
@@ -168,12 +218,17 @@ LocalPrimitive decode_primitive(GltfFile& file, size_t mesh, size_t index, const
     for (uint32_t vertex : kept) {
         const float* v = positions.row(vertex);
         p.positions.emplace_back(v[0], v[1], v[2]);
-        if (!is_finite(p.positions.back()))
-            file.fail(where + ": the position of vertex " + std::to_string(vertex) + " is not finite");
     }
+    add_morph(file, source, "POSITION", pose.morph_weights, kept, positions.count, where, p.positions);
+    for (size_t i = 0; i < kept.size(); ++i)
+        if (!is_finite(p.positions[i]))
+            file.fail(where + ": the position of vertex " + std::to_string(kept[i]) + " is not finite");
     p.normals = reader.gather<3>("NORMAL", 3, kept, positions.count);
+    add_morph(file, source, "NORMAL", pose.morph_weights, kept, positions.count, where, p.normals);
     repair_normals(p);
     read_optional(reader, kept, positions.count, scene, p);
+    add_morph(file, source, "TANGENT", pose.morph_weights, kept, positions.count, where, p.tangents);
+    if (pose.is_skinned) p.joints = read_joints(file, reader, kept, positions.count, where);
     return p;
 }
 

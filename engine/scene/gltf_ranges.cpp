@@ -33,6 +33,9 @@ constexpr Quantity of_materials[] = {
     {"/extensions/KHR_materials_volume/thicknessFactor", 0, -endless, endless},
     {"/extensions/KHR_materials_volume/attenuationDistance", 0, -endless, endless},
     {"/extensions/KHR_materials_volume/attenuationColor", 3, 0, 1},
+    {"/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", 4, 0, 1},
+    {"/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", 3, 0, 1},
+    {"/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", 0, 0, 1},
 };
 
 constexpr Quantity of_lights[] = {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "image/png.h"
+#include "image/webp.h"
 #include "scene/gltf_accessor.h"
 
 namespace lw {
@@ -37,11 +38,18 @@ std::span<const unsigned char> encoded_bytes(const GltfFile& file, const tinyglt
     return image.image;
 }
 
-/// RGBA8 of a PNG, JPEG, BMP or other image stb_image knows; nothing when it does not.
+/// RGBA8 of a WebP, PNG, JPEG, BMP or other image stb_image knows; nothing when it does not.
 std::optional<tinygltf::Image> decode(std::span<const unsigned char> bytes) {
     tinygltf::Image image;
     std::string error, warning;
     if (bytes.empty() || bytes.size() > size_t(std::numeric_limits<int>::max())) return {};
+    if (is_webp(bytes)) {
+        std::optional<WebpImage> webp = decode_webp(bytes);
+        if (!webp) return {};
+        image.width = webp->width, image.height = webp->height, image.component = 4, image.bits = 8;
+        image.image = std::move(webp->rgba);
+        return image;
+    }
     if (!tinygltf::LoadImageData(&image, 0, &error, &warning, 0, 0, bytes.data(), int(bytes.size()), nullptr))
         return {};
     const bool known =
@@ -56,6 +64,18 @@ uint packed_texel(const tinygltf::Image& image, size_t texel) {
     uint bits = 0;
     for (size_t c = 0; c < 4; ++c) bits |= uint(image.image[(texel * 4 + c) * step + high]) << (8 * c);
     return bits;
+}
+
+/// The image of a texture: that of an extension whose format is decoded, else the plain one; -1 when there is none.
+int image_of(const tinygltf::Texture& texture) {
+    const tinygltf::Value* webp = extension_of(texture.extensions, "EXT_texture_webp");
+    return webp ? index_of(*webp, "source", texture.source) : texture.source;
+}
+
+/// Linear value of an sRGB code (IEC 61966-2-1).
+float linear_of(uint code) {
+    const float c = float(code) / 255.0f;
+    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
 }
 
 }  // namespace
@@ -88,7 +108,13 @@ TextureSlot TextureLoader::slot(const tinygltf::TextureInfo& reference, bool srg
         return no_texture();
     }
     const tinygltf::Texture& source = file_.model.textures[size_t(reference.index)];
-    slot.texture = texture(source.source, source.sampler, srgb, where);
+    if (image_of(source) < 0 && extension_of(source.extensions, "KHR_texture_basisu")) {
+        file_.warn(where +
+                   ": its picture is Basis Universal (KTX2), which is not decoded; its factor is used. Convert the "
+                   "file by \"gltf-transform ktxdecompress\"");
+        return slot;
+    }
+    slot.texture = texture(image_of(source), source.sampler, srgb, where);
     return slot;
 }
 
@@ -109,6 +135,35 @@ int TextureLoader::texture(int image, int sampler, bool srgb, const std::string&
     it->second = int(scene_.textures.size());
     scene_.textures.push_back(t);
     return it->second;
+}
+
+bool TextureLoader::is_black(const TextureSlot& slot) const {
+    if (slot.texture < 0) return false;
+    const Texture& t = scene_.textures[size_t(slot.texture)];
+    const auto first = scene_.texels.begin() + t.first_texel;
+    return std::all_of(first, first + size_t(t.width) * t.height, [](uint texel) { return (texel & 0xffffffu) == 0; });
+}
+
+GlossinessTexture TextureLoader::glossiness(const tinygltf::TextureInfo& reference, float factor,
+                                            const std::string& where) {
+    GlossinessTexture result{slot(reference, false, where), vec3(1)};
+    if (result.roughness.texture < 0) return result;
+    Texture texture = scene_.textures[size_t(result.roughness.texture)];
+    const size_t source = texture.first_texel, count = size_t(texture.width) * texture.height;
+    if (scene_.texels.size() + count > std::numeric_limits<uint>::max())
+        file_.fail(where + ": the textures have more than 2^32 texels");
+    texture.first_texel = uint(scene_.texels.size());
+    glm::dvec3 sum(0);
+    for (size_t i = 0; i < count; ++i) {
+        const uint texel = scene_.texels[source + i];
+        sum += glm::dvec3(linear_of(texel & 255u), linear_of((texel >> 8) & 255u), linear_of((texel >> 16) & 255u));
+        const float roughness = 1 - factor * float(texel >> 24) / 255.0f;
+        scene_.texels.push_back(uint(std::lround(255.0f * roughness)) << 8 | 0xff0000ffu);  // G; no metal in B
+    }
+    result.mean_specular = vec3(sum / double(count));
+    result.roughness.texture = int(scene_.textures.size());
+    scene_.textures.push_back(texture);
+    return result;
 }
 
 std::optional<TextureLoader::Picture> TextureLoader::picture(int index, const std::string& where) {
@@ -132,7 +187,7 @@ std::optional<TextureLoader::Picture> TextureLoader::picture(int index, const st
     if (!decoded) {
         file_.warn(name +
                    (source.bufferView < 0 && source.image.empty() ? ": is missing"
-                                                                  : ": cannot be decoded (PNG and JPEG can)") +
+                                                                  : ": cannot be decoded (PNG, JPEG and WebP can)") +
                    "; the factor of " + where + " is used instead");
         return {};
     }

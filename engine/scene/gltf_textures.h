@@ -9,6 +9,13 @@
 
 namespace lw {
 
+/// What a specular-glossiness texture says (KHR_materials_pbrSpecularGlossiness): RGB is a specular colour, A
+/// glossiness.
+struct GlossinessTexture {
+    TextureSlot roughness;  // its G channel: 1 - factor x glossiness
+    vec3 mean_specular;     // linear, mean of all texels
+};
+
 class TextureLoader {
   public:
     TextureLoader(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
@@ -16,6 +23,12 @@ class TextureLoader {
     /// The slot for a texture that a material refers to. `srgb`: its colours are sRGB encoded. The slot has texture =
     /// -1 when the material names none, or, with a warning, when the image cannot be used.
     TextureSlot slot(const tinygltf::TextureInfo& reference, bool srgb, const std::string& where);
+
+    /// True when the texture of a slot is black everywhere.
+    bool is_black(const TextureSlot& slot) const;
+
+    /// The specular-glossiness texture of a material whose glossinessFactor is `factor`.
+    GlossinessTexture glossiness(const tinygltf::TextureInfo& reference, float factor, const std::string& where);
 
   private:
     struct Picture {

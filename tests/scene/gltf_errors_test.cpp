@@ -31,8 +31,8 @@ void add_material(GltfText& g, const Json& material) {
 
 TEST(GltfErrors, RequiredExtensionIsRefusedByName) {
     GltfText g = square();
-    g.doc["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-    EXPECT_EQ(message(g), "room.gltf: requires the extension KHR_draco_mesh_compression, which is not supported");
+    g.doc["extensionsRequired"] = {"EXT_mesh_features"};
+    EXPECT_EQ(message(g), "room.gltf: requires the extension EXT_mesh_features, which is not supported");
 }
 
 TEST(GltfErrors, UsedExtensionThatChangesTheLookIsToldOnce) {
@@ -341,8 +341,8 @@ TEST(GltfErrors, NamesAreToldInOnePlainLine) {
     EXPECT_EQ(s.light_names, std::vector<std::string>{"red?[31m??"});
     g.primitive()["attributes"].erase("POSITION");
     EXPECT_EQ(message(g), "room.gltf: mesh 0 \"two?lines\": primitive 0 has no POSITION");
-    g.doc["extensionsRequired"] = {"KHR\nlines"};
-    EXPECT_EQ(message(g), "room.gltf: requires the extension KHR?lines, which is not supported");
+    g.doc["extensionsRequired"] = {"EXT_mesh\nlines"};
+    EXPECT_EQ(message(g), "room.gltf: requires the extension EXT_mesh?lines, which is not supported");
 }
 
 TEST(GltfErrors, VertexColoursOutsideTheirRangeMakeNoLight) {
