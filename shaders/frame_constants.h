@@ -3,6 +3,7 @@
 // FrameConstants (gather/constants.h). Whoever includes this says in LW_CONSTANT what a row becomes.
 
 // What the scene has (gather/resident).
+// clang-format off: a row that is broken has two lines, and compilers differ in which of them counts.
 LW_CONSTANT(bool, has_uv0, true)
 LW_CONSTANT(bool, has_uv1, true)
 LW_CONSTANT(bool, has_colors, true)  // of vertices

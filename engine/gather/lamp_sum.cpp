@@ -40,6 +40,13 @@ void set_window(const LampSumSetting& setting, uint binding, const Buffer& buffe
     setting.descriptors->set_window(binding, buffer, bytes * std::min(std::max(nodes, 1u), lamp_sum_window));
 }
 
+/// Lamps whose power is another than in the sums.
+size_t changed(const LampSumSetting& setting, std::span<const vec3> powers) {
+    size_t count = 0;
+    for (size_t i = 0; i < powers.size(); ++i) count += powers[i] != setting.powers[i];
+    return count;
+}
+
 float total_of(std::span<const vec3> powers) {
     float total = 0;
     for (const vec3& p : powers) total += std::max({p.x, p.y, p.z});
@@ -129,7 +136,9 @@ void LampSum::record(vk::CommandBuffer commands, LampSumSetting& setting, std::s
     if (same && (setting.is_whole || !whole)) return;
     const float total = total_of(powers);
     const bool in_range = total <= max_brightening * setting.total && total >= max_dimming * setting.total;
-    whole = whole || setting.powers.empty() || !in_range || !keeps_all(setting);
+    const bool adds =
+        !setting.powers.empty() && in_range && keeps_all(setting) && 2 * changed(setting, powers) < powers.size();
+    whole = whole || !adds;
     if (!setting.powers.empty() && !same) keep_direct(setting);  // the next change is added
     if (whole) setting.total = total, setting.scale = cells_->scale_of(powers);
     const std::vector<LampTerm> terms = terms_of(setting, powers, whole);

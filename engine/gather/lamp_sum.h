@@ -34,8 +34,9 @@ class LampSum {
     LampSumSetting make_setting() const;
 
     /// Records the sum at these powers (one RGB power per lamp) into the cells of a setting. Lamps that changed are
-    /// added, unless `whole` is asked for, their sum is new, or the brightness has changed so much that the scale of
-    /// the sums must change. Later commands see the result. Records nothing when nothing has changed.
+    /// added, unless `whole` is asked for, there are no sums yet, half of the lamps or more have changed, or the
+    /// brightness has changed so much that the scale of the sums must change. Later commands see the result. Records
+    /// nothing when nothing has changed.
     void record(vk::CommandBuffer commands, LampSumSetting& setting, std::span<const vec3> powers, bool whole);
 
     /// Texels of the setting's cells hold lux x this.

@@ -66,13 +66,13 @@ bool knows_version(const MeshoptStream& stream) {
 int decode(const MeshoptStream& stream, unsigned char* decoded) {
     const unsigned char* bytes = stream.bytes.data();
     const size_t size = stream.bytes.size();
-    if (stream.mode == "ATTRIBUTES") return meshopt_decodeVertexBuffer(decoded, stream.count, stream.stride, bytes, size);
+    if (stream.mode == "ATTRIBUTES")
+        return meshopt_decodeVertexBuffer(decoded, stream.count, stream.stride, bytes, size);
     if (stream.mode == "TRIANGLES") return meshopt_decodeIndexBuffer(decoded, stream.count, stream.stride, bytes, size);
     return meshopt_decodeIndexSequence(decoded, stream.count, stream.stride, bytes, size);
 }
 
-void apply_filter(const GltfFile& file, const MeshoptStream& stream, const std::string& where,
-                  unsigned char* decoded) {
+void apply_filter(const GltfFile& file, const MeshoptStream& stream, const std::string& where, unsigned char* decoded) {
     if (stream.filter.empty() || stream.filter == "NONE") return;
     const bool has_stride = stream.filter == "OCTAHEDRAL"    ? stream.stride == 4 || stream.stride == 8
                             : stream.filter == "QUATERNION"  ? stream.stride == 8
@@ -90,7 +90,8 @@ std::vector<unsigned char> decode_view(const GltfFile& file, const tinygltf::Val
     if (stream.mode != "ATTRIBUTES" && stream.mode != "TRIANGLES" && stream.mode != "INDICES")
         file.fail(where + ": the mode \"" + stream.mode + "\" is not known");
     if (!knows_version(stream))
-        file.fail(where + ": is a meshopt stream of a version that this program does not know; write the file again with "
+        file.fail(where +
+                  ": is a meshopt stream of a version that this program does not know; write the file again with "
                   "gltfpack -c or with gltf-transform meshopt --level medium");
     const uint64_t bytes = uint64_t(stream.count) * stream.stride;
     // Vertices of one value take a byte for each block of sixteen and channel, triangles at least a byte each.

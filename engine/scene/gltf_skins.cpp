@@ -61,8 +61,7 @@ std::vector<glm::dmat4> joint_matrices(const GltfFile& file, int skin, const std
     std::vector<glm::dmat4> matrices;
     for (size_t j = 0; j < source.joints.size(); ++j) {
         const int node = source.joints[j];
-        if (node < 0 || size_t(node) >= worlds.size())
-            file.fail(where + ": there is no node " + std::to_string(node));
+        if (node < 0 || size_t(node) >= worlds.size()) file.fail(where + ": there is no node " + std::to_string(node));
         matrices.push_back(worlds[size_t(node)] * inverse_bind(rows, j));
         const double* values = glm::value_ptr(matrices.back());
         if (!std::all_of(values, values + 16, [](double v) { return std::isfinite(v); }))

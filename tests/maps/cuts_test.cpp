@@ -28,7 +28,9 @@ Scene hall() {
     return lab.finish();
 }
 
-bool is_floor(const PatchShape& shape) { return shape.normal.y > 0.9f && shape.high.z < 0.1f && shape.box_high.y < 0.1f; }
+bool is_floor(const PatchShape& shape) {
+    return shape.normal.y > 0.9f && shape.high.z < 0.1f && shape.box_high.y < 0.1f;
+}
 
 float area_of(const std::vector<vec2>& outline) {
     float doubled = 0;

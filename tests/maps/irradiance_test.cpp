@@ -62,7 +62,7 @@ TEST(Irradiance, OfABlackPanelIsItsProjectedSolidAngle) {
         if (room.map.grids[node.map].normal.y < 0.9f || node.on_triangle.y > 0.1f) return;
         const double expected = light_of_panel(glm::dvec3(node.on_triangle), {2, 2.5, 1}, {3.5, 2.5, 2});
         EXPECT_NEAR(irradiance_of(room.map, nodes, 0, node.index).y / expected, 1, 0.01)  // the panel reflects a little
-           
+
             << node.on_triangle.x << " " << node.on_triangle.z;
         ++count;
     });

@@ -44,7 +44,8 @@ TEST(Neighbours, AreNoneInTheMiddleOfAWall) {
     size_t middle = 0;
     for (int i = 1; i < 40; ++i)
         for (int k = 1; k < 32; ++k) {
-            const vec3 p(0.25f * float(i), 0, 0.25f * float(k));  // of the floor, whose first triangle is above z = 0.8 x
+            const vec3 p(0.25f * float(i), 0,
+                         0.25f * float(k));  // of the floor, whose first triangle is above z = 0.8 x
             const float to_edges = std::min({p.x, 8 - p.z, (p.z - 0.8f * p.x) / std::sqrt(1 + 0.8f * 0.8f)});
             if (to_edges < 3 * radius) continue;  // the radius, and the diagonal of a cell
             EXPECT_TRUE(neighbours.near(patches.at(0, p), p).empty()) << p.x << " " << p.z;

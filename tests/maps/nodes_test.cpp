@@ -171,9 +171,7 @@ TEST(Nodes, LieOnTheHighestWhereSheetsOverlap) {
     EXPECT_GT(seen, 200u);
 }
 
-TEST(Nodes, MoreThan32BitsCountAreRefused) {
-    EXPECT_THROW(Laid(make_room({10'000, 2}), 1.5f, 1e-4f), Error);
-}
+TEST(Nodes, MoreThan32BitsCountAreRefused) { EXPECT_THROW(Laid(make_room({10'000, 2}), 1.5f, 1e-4f), Error); }
 
 }  // namespace
 }  // namespace lw

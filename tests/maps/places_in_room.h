@@ -29,8 +29,7 @@ inline std::vector<Photon> places_in(const RoomPatches& room, size_t count) {
         const auto t = uint(rng.next() * float(room.scene.triangles.size()));
         const uvec3 c = room.scene.triangles[i % 3 == 0 ? t % 100 : t];  // the first are the large ones
         const float root = std::sqrt(rng.next()), part = rng.next();
-        const vec3 position = room.scene.positions[c.x] * (1 - root) +
-                              room.scene.positions[c.y] * (root * (1 - part)) +
+        const vec3 position = room.scene.positions[c.x] * (1 - root) + room.scene.positions[c.y] * (root * (1 - part)) +
                               room.scene.positions[c.z] * (root * part);
         photons.push_back({position, vec3(1), vec3(0, 1, 0), i % 3 == 0 ? t % 100 : t,
                            pack_origin(0, path_direct, rng.next() < 0.5f)});
@@ -67,9 +66,11 @@ inline Belonging belonging_of(const RoomPatches& room, const Photon& photon, uin
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), height = beyond.z;
     const double cos_angle = std::cos(glm::radians(double(room.partition.neighbour_angle_deg))), margin = 1e-4;
     if (distance > double(room.partition.radii[patch]) + margin || to_bounds > double(room.partition.radius) + margin ||
-        cosine < cos_angle - margin || height > 0.01 * double(room.partition.radius) + (1.1 * sine + 0.011) * distance + margin)
+        cosine < cos_angle - margin ||
+        height > 0.01 * double(room.partition.radius) + (1.1 * sine + 0.011) * distance + margin)
         return Belonging::no;
-    const bool is_near = distance < double(room.partition.radii[patch]) - margin && to_bounds < double(room.partition.radius) - margin;
+    const bool is_near =
+        distance < double(room.partition.radii[patch]) - margin && to_bounds < double(room.partition.radius) - margin;
     return is_near && cosine > cos_angle + margin && height <= sine * distance ? Belonging::sure : Belonging::close;
 }
 

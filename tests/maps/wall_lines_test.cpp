@@ -23,8 +23,8 @@ LabScene floor_of_hall() {
 
 /// A wall of no thickness from one point of the floor (x, z) to another.
 void add_wall(LabScene& lab, vec2 from, vec2 to, float bottom, float height) {
-    lab.add_rectangle("wall", vec3(from.x, bottom, from.y), vec3(to.x - from.x, 0, to.y - from.y),
-                      vec3(0, height, 0), 0.5f);
+    lab.add_rectangle("wall", vec3(from.x, bottom, from.y), vec3(to.x - from.x, 0, to.y - from.y), vec3(0, height, 0),
+                      0.5f);
 }
 
 /// A line on the floor in the axes of the scene, and how far along it walls stand.
@@ -108,10 +108,10 @@ TEST(WallLines, WhatIsThinShortOrAboveTheFloorIsNoWall) {
         return lines_on_floor(lab).size();
     };
     const float thin = 0.9f * height_of_cuts(radius);
-    EXPECT_EQ(count({7, 2}, 0, thin), 0u);                               // a rug
-    EXPECT_EQ(count({2 + 0.9f * radius, 2}, 0, 1), 0u);                  // a leg of a table
-    EXPECT_EQ(count({7, 2}, 1.2f * height_of_cuts(radius), 2.5f), 0u);   // light passes below
-    EXPECT_GT(count({7, 2}, 0, 1.2f * height_of_cuts(radius)), 0u);      // a threshold
+    EXPECT_EQ(count({7, 2}, 0, thin), 0u);                              // a rug
+    EXPECT_EQ(count({2 + 0.9f * radius, 2}, 0, 1), 0u);                 // a leg of a table
+    EXPECT_EQ(count({7, 2}, 1.2f * height_of_cuts(radius), 2.5f), 0u);  // light passes below
+    EXPECT_GT(count({7, 2}, 0, 1.2f * height_of_cuts(radius)), 0u);     // a threshold
     EXPECT_GT(count({2 + 1.1f * radius, 2}, 0, 1), 0u);
 }
 

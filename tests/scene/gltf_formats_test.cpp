@@ -233,7 +233,8 @@ TEST(GltfFormats, AMeshStandsInItsDefaultMorphWeights) {
 
 TEST(GltfFormats, JointsPlaceASkinnedMeshAndItsNodeDoesNot) {
     GltfText g = square();
-    g.attribute("JOINTS_0", g.accessor(std::vector<uint8_t>{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, "VEC4", 5121));
+    g.attribute("JOINTS_0",
+                g.accessor(std::vector<uint8_t>{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, "VEC4", 5121));
     g.floats("WEIGHTS_0", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 0, 0}, "VEC4");
     g.node()["skin"] = 0;
     g.node()["translation"] = {100, 0, 0};
