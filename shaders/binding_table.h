@@ -5,7 +5,8 @@
 // Arrays read at random are texel buffers, records whole texels: a software rasterizer fetches four words of a texel in
 // the time of one word of a storage buffer.
 //
-// clang-format off: a row that is broken has two lines, and compilers differ in which of them counts.
+// A row that is broken has two lines, and compilers differ in which of them counts.
+// clang-format off
 
 // The scene and its map, set 0 (gather/resident). Corners are three per triangle, without indices.
 LW_BINDING(scene, corners, texels, 1, all_stages)       // RGBA32F twice: position and u, normal and v of uv0

@@ -1,5 +1,6 @@
 // The specialization constants of the view pass, as frame_constants.h. Some devices run both sides of a branch.
-// clang-format off: a row that is broken has two lines, and compilers differ in which of them counts.
+// A row that is broken has two lines, and compilers differ in which of them counts.
+// clang-format off
 LW_CONSTANT(uint, shown_view, view_shaded)
 LW_CONSTANT(uint, shown_curve, curve_neutral)
 LW_CONSTANT(bool, has_lines, true)

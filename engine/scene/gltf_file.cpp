@@ -251,8 +251,11 @@ bool exists_in_folder(const std::string& path, void* files) {
     return path.starts_with(static_cast<const ExternalFiles*>(files)->folder) && std::filesystem::is_regular_file(path);
 }
 
-/// Returns the path unchanged. The default callback of tinygltf passes it to wordexp(3), which would run `$(...)`.
-std::string same_path(const std::string& path, void*) { return path; }
+/// The path without `a/..`, also where there is no folder a. Replaces tinygltf's own function, which hands the name to
+/// wordexp(3), which runs `$(...)`.
+std::string plain_path(const std::string& path, void*) {
+    return std::filesystem::path(path).lexically_normal().string();
+}
 
 bool read_external(std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void* files) {
     try {
@@ -302,7 +305,7 @@ GltfFile open_gltf(const std::filesystem::path& path, bool strict) {
     std::string error, unused;
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(keep_encoded, nullptr);
-    parser.SetFsCallbacks({exists_in_folder, same_path, read_external, tinygltf::WriteWholeFile, &files});
+    parser.SetFsCallbacks({exists_in_folder, plain_path, read_external, tinygltf::WriteWholeFile, &files});
     bool parsed = false;
     try {
         const auto size = unsigned(bytes.size());

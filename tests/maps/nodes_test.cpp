@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "benchmark/lab_scene.h"
 #include "benchmark/rooms.h"
+#include "scene/triangle.h"
 
 namespace lw {
 namespace {

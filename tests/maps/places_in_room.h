@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "benchmark/rooms.h"
 #include "maps/references.h"
+#include "scene/triangle.h"
 
 namespace lw::test {
 
