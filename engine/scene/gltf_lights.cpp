@@ -134,6 +134,17 @@ void warn_if_not_photometric(GltfFile& file, const Scene& scene) {
             "photometric?");
 }
 
+/// Colours of lights are factors from 0 to 1 (KHR_lights_punctual).
+void warn_of_large_colors(GltfFile& file) {
+    for (size_t i = 0; i < file.model.lights.size(); ++i) {
+        const tinygltf::Light& light = file.model.lights[i];
+        if (std::any_of(light.color.begin(), light.color.end(), [](double channel) { return channel > 1; }))
+            file.warn(
+                label("light", i, light.name) +
+                ": its colour is larger than 1 and makes the lamp brighter; are its channels given from 0 to 255?");
+    }
+}
+
 }  // namespace
 
 void make_unique(std::vector<std::string>& names) {
@@ -159,6 +170,7 @@ void load_lights(GltfFile& file, const std::vector<PlacedNode>& nodes, const std
             "the scene has no light: add a point, spot or sun lamp (KHR_lights_punctual) or give a mesh an emissive "
             "material");
     make_unique(scene.light_names);
+    warn_of_large_colors(file);
     warn_if_not_photometric(file, scene);
 }
 

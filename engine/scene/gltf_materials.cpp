@@ -67,8 +67,8 @@ void read_specular_glossiness(GltfFile& file, TextureLoader& loader, const tinyg
     const float glossiness = unit(number_of(*e, "glossinessFactor", 1));
     m.metallic = 0;
     m.roughness = 1 - glossiness;
-    m.specular = 1;
     m.specular_color = glm::clamp(vector_of(*e, "specularFactor", vec3(1)), 0.0f, 1.0f);
+    m.specular = m.specular_color == vec3(0) ? 0.0f : 1.0f;  // black: no lobe, at grazing angles neither
     m.ior = 0;
     m.base_color_texture = loader.slot(texture_info(*e, "diffuseTexture"), true, where + ": diffuseTexture");
     m.metallic_roughness_texture = no_texture();

@@ -295,6 +295,13 @@ TEST(GltfFormats, AMaterialThatGlowsBlackIsNoLamp) {
     EXPECT_EQ(g.load().lights.size(), 1u);
 }
 
+TEST(GltfFormats, AColourBeyondOneIsTold) {
+    GltfText g = square();
+    EXPECT_FALSE(warns(g.load(), "larger than 1"));
+    g.doc["extensions"]["KHR_lights_punctual"]["lights"][0]["color"] = {255, 255, 255};
+    EXPECT_TRUE(warns(g.load(), "from 0 to 255"));
+}
+
 TEST(GltfFormats, AUriMayGoDownAndUpInsideTheFolder) {
     GltfText g = square();
     Json file = Json::parse(g.text());
