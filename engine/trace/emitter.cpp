@@ -32,7 +32,26 @@ float sample_spot_cosine(const Light& light, float u) {
     return light.cos_outer + t * (light.cos_inner - light.cos_outer);
 }
 
-constexpr uint max_even_triangles = 8;  // beyond, sixteen samples cost less than the closed form
+constexpr size_t max_beam_cells = 131'072;  // of more, the running sum of flux in float loses some
+constexpr uint max_even_triangles = 8;      // beyond, sixteen samples cost less than the closed form
+
+/// A direction within a row of a table that has `rows` from pole to pole: `within` of its solid angle from its start.
+struct InRow {
+    float cosine, sine;
+    float band;  // solid angle of the row over 2 pi
+};
+
+/// In float or, as float does not part the cosines near a pole, in double for rows finer than half a degree.
+template <class T>
+InRow in_row_by(uint row, uint rows, float within) {
+    const T low = std::cos(T(lw_pi) * T(row) / T(rows)), high = std::cos(T(lw_pi) * T(row + 1) / T(rows));
+    const T cosine = low + T(within) * (high - low);
+    return {float(cosine), float(std::sqrt(std::max(T(0), 1 - cosine * cosine))), float(low - high)};
+}
+
+InRow in_row(uint row, uint rows, float within) {
+    return rows > 360 ? in_row_by<double>(row, rows, within) : in_row_by<float>(row, rows, within);
+}
 
 /// The part of triangle `corners` above the plane through the origin with unit `normal`: up to four corners.
 uint clip_to_horizon(const std::array<vec3, 3>& corners, vec3 normal, std::array<vec3, 4>& kept) {
@@ -64,7 +83,8 @@ float cosine_integral(const std::array<vec3, 4>& corners, uint count, vec3 norma
 Emitters::Emitters(const Scene& scene) : scene_(scene), surfaces_(scene) {
     centre_ = 0.5f * (scene.bounds[0] + scene.bounds[1]);
     radius_ = 0.5f * length(scene.bounds[1] - scene.bounds[0]) * 1.001f;
-    for (const Light& light : scene.lights) beams_.push_back(light.type == light_profile ? beam_of(light) : Beam{});
+    for (const Light& light : scene.lights)
+        if (light.type == light_profile && !beams_.contains(light.profile)) beams_[light.profile] = beam_of(light);
     for (const Light& light : scene.lights) even_radiance_.push_back(even_radiance_of(light));
 }
 
@@ -103,15 +123,28 @@ vec3 Emitters::even_irradiance(uint index, vec3 point, vec3 normal) const {
 
 Emitters::Beam Emitters::beam_of(const Light& light) const {
     // A round distribution has one column, which is cut so that no cell goes all around.
-    Beam beam{std::max(scene_.texels[light.profile], 4u), scene_.texels[light.profile + 1] - 1, {}};
+    const uint columns = std::max(scene_.texels[light.profile], 4u), rows = scene_.texels[light.profile + 1] - 1;
     const uint step = scene_.texels[light.profile] == 1 ? 0 : 1;
+    Beam beam{columns, rows, {}};
+    // Halved on the wider side: there the light varies less.
+    while (size_t(beam.columns) * beam.rows > max_beam_cells) {
+        const bool wide = 2 * beam.rows > beam.columns;
+        uint &wider = wide ? beam.columns : beam.rows, &other = wide ? beam.rows : beam.columns;
+        uint& halved = wider % 2 == 0 ? wider : other;
+        if (halved % 2 != 0) break;
+        halved /= 2;
+    }
     double sum = 0;
-    for (uint c = 0; c < beam.columns; ++c)
-        for (uint r = 0; r < beam.rows; ++r) {
-            const float low = lw_pi * float(r) / float(beam.rows), high = lw_pi * float(r + 1) / float(beam.rows);
-            const double area = double(std::cos(low) - std::cos(high)) * 2 * double(lw_pi) / beam.columns;
-            const auto at = [&](uint i, uint j) { return double(surfaces_.profile_entry(light.profile, i * step, j)); };
-            sum += area * (at(c, r) + at(c + 1, r) + at(c, r + 1) + at(c + 1, r + 1)) / 4;
+    const auto at = [&](uint i, uint j) { return double(surfaces_.profile_entry(light.profile, i * step, j)); };
+    const auto add_cell = [&](uint c, uint r) {
+        const double area = double(in_row(r, rows, 0).band) * 2 * double(lw_pi) / columns;
+        sum += area * (at(c, r) + at(c + 1, r) + at(c, r + 1) + at(c + 1, r + 1)) / 4;
+    };
+    const uint across = columns / beam.columns, along = rows / beam.rows;
+    for (uint i = 0; i < columns; i += across)
+        for (uint j = 0; j < rows; j += along) {
+            for (uint c = i; c < i + across; ++c)
+                for (uint r = j; r < j + along; ++r) add_cell(c, r);
             beam.flux_below.push_back(float(sum));
         }
     return beam;
@@ -125,13 +158,11 @@ Emission Emitters::emit_profile(const Light& light, const Beam& beam, float u, f
     const float below = cell == 0 ? 0.0f : beam.flux_below[cell - 1], own = *chosen - below;
     const float within = clamp((u * total - below) / std::max(own, 1e-30f), 0.0f, 0.99999994f);
     const uint column = cell / beam.rows, row = cell % beam.rows;
-    const float low = std::cos(lw_pi * float(row) / float(beam.rows)),
-                high = std::cos(lw_pi * float(row + 1) / float(beam.rows));
-    const float cosine = low + within * (high - low), c = 2 * lw_pi * (float(column) + v) / float(beam.columns);
-    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-    const vec3 direction = normalize(light.direction * cosine + light.across * (sine * std::cos(c)) +
-                                     cross(light.across, light.direction) * (sine * std::sin(c)));
-    const float area = (low - high) * 2 * lw_pi / float(beam.columns);
+    const InRow polar = in_row(row, beam.rows, within);
+    const float c = 2 * lw_pi * (float(column) + v) / float(beam.columns);
+    const vec3 direction = normalize(light.direction * polar.cosine + light.across * (polar.sine * std::cos(c)) +
+                                     cross(light.across, light.direction) * (polar.sine * std::sin(c)));
+    const float area = polar.band * 2 * lw_pi / float(beam.columns);
     const float flux = surfaces_.profile_value(light, direction) * area * total / std::max(own, 1e-30f);
     return {light.position, vec3(0), direction, vec3(flux)};
 }
@@ -178,7 +209,7 @@ float Emitters::unit_flux(uint index) const {
         case light_spot:
             return 2 * lw_pi * ((1 - light.cos_inner) + (light.cos_inner - light.cos_outer) / 3);
         case light_profile:
-            return beams_[index].flux_below.back();
+            return beams_.at(light.profile).flux_below.back();
         case light_directional:
             return lw_pi * radius_ * radius_;
         default:
@@ -190,7 +221,7 @@ Emission Emitters::emit(uint index, const std::array<float, 5>& u) const {
     const Light& light = scene_.lights[index];
     const vec3 flux(unit_flux(index));
     if (light.type == light_point) return {light.position, vec3(0), direction_of(1 - 2 * u[2], u[3]), flux};
-    if (light.type == light_profile) return emit_profile(light, beams_[index], u[2], u[3]);
+    if (light.type == light_profile) return emit_profile(light, beams_.at(light.profile), u[2], u[3]);
     if (light.type == light_spot)
         return {light.position, vec3(0),
                 frame_around(light.direction) * direction_of(sample_spot_cosine(light, u[2]), u[3]), flux};

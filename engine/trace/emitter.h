@@ -2,6 +2,7 @@
 // Everything is for intensity 1 of the lamp (1 cd, 1 lx, 1 cd/m2 per RGB channel); powers are applied by the caller.
 #pragma once
 #include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -64,7 +65,7 @@ class Emitters {
 
     const Scene& scene_;
     SurfaceReader surfaces_;
-    std::vector<Beam> beams_;  // per lamp, empty but for profile lights
+    std::map<uint, Beam> beams_;  // by the first word of the table of a profile light
     /// The point at (u, v) of a mesh lamp, uniform by area.
     Surface point_of(uint light, float u, float v) const;
     Surface even_point(uint triangle, vec2 barycentrics) const;
