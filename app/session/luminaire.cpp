@@ -1,7 +1,5 @@
 #include "app/session/luminaire.h"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "photometry/photometry.h"
@@ -10,17 +8,9 @@
 namespace lw {
 
 float share_of_profile(const Scene& scene, const Light& light, float gamma_deg, float c_deg) {
-    const uint columns = scene.texels[light.profile], rows = scene.texels[light.profile + 1];
-    const auto entry = [&](uint column, uint row) {
-        return std::bit_cast<float>(
-            scene.texels[light.profile + 2 + column % columns * rows + std::min(row, rows - 1)]);
-    };
-    const float turns = c_deg / 360, column = (turns - std::floor(turns)) * float(columns);
-    const float row = std::clamp(gamma_deg / 180, 0.0f, 1.0f) * float(rows - 1);
-    const uint i = uint(column), j = uint(row);
-    const float low = mix(entry(i, j), entry(i + 1, j), column - float(i));
-    const float high = mix(entry(i, j + 1), entry(i + 1, j + 1), column - float(i));
-    return mix(low, high, row - float(j));
+    const float gamma = gamma_deg * lw_pi / 180, c = c_deg * lw_pi / 180;
+    const vec3 around = light.across * std::cos(c) + cross(light.across, light.direction) * std::sin(c);
+    return SurfaceReader(scene).profile_value(light, light.direction * std::cos(gamma) + around * std::sin(gamma));
 }
 
 std::map<size_t, Luminaire> luminaires_of(const Scene& scene, const std::vector<std::string>& photometry) {

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 
+#include "photometry/intensities.h"
+#include "photometry/lamp_color.h"
 #include "photometry/number_reader.h"
 #include "photometry/photometry.h"
 
@@ -79,13 +80,13 @@ Photometry parse_eulumdat(const std::string& text, const std::string& name) {
         const double lamps = number_on_line(reader, "the number of lamps");
         reader.line("the type of lamps");
         const double flux = number_on_line(reader, "the flux of the lamps");
-        const double temperature = std::strtod(reader.line("the colour").c_str(), nullptr);
+        const std::string color = reader.line("the colour");
         reader.line("the colour rendering");
         reader.line("the watts");
         if (set > 0) continue;  // the sets are alternatives
         absolute = lamps < 0;
         lumens = flux;
-        photometry.color_temperature = temperature > 500 && temperature < 1e5 ? temperature : 0;
+        photometry.color_temperature = temperature_of(color);
     }
     if (!(lumens > 0)) reader.fail("the flux of the lamps must be positive");
     for (int i = 0; i < 10; ++i) reader.line("the direct ratios");
@@ -97,16 +98,13 @@ Photometry parse_eulumdat(const std::string& text, const std::string& name) {
     if (photometry.vertical.front() < 0 || photometry.vertical.back() > 180)
         reader.fail("the G angles lie outside 0 to 180");
     photometry.horizontal = given_planes(all, symmetry, reader);
-    for (size_t i = 0; i < photometry.horizontal.size() * verticals; ++i) {
-        const double value = number_on_line(reader, "an intensity");
-        if (value < 0) reader.fail("an intensity is negative");
-        photometry.candela.push_back(value * (conversion > 0 ? conversion : 1) * lumens / 1000);
-    }
-    if (symmetry == 0 && planes > 1 && all.back() < 360) {  // the circle closes with its first plane
-        photometry.horizontal.push_back(360);
-        photometry.candela.insert(photometry.candela.end(), photometry.candela.begin(),
-                                  photometry.candela.begin() + ptrdiff_t(verticals));
-    }
+    for (size_t i = 0; i < photometry.horizontal.size() * verticals; ++i)
+        photometry.candela.push_back(number_on_line(reader, "an intensity"));
+    note_left_over(reader, photometry);
+    settle_negative_intensities(reader, photometry);
+    note_missing_angles(reader, photometry);
+    for (double& value : photometry.candela) value = value * (conversion > 0 ? conversion : 1) * lumens / 1000;
+    if (symmetry == 0 && planes > 1 && all.back() < 360) close_ring(photometry);
     photometry.lamp_lumens = absolute ? 0 : lumens;
     photometry.stated_output = output_percent > 0 ? lumens * output_percent / 100 : 0;
     return photometry;

@@ -5,7 +5,8 @@
 #include <cstdio>
 
 #include "base/error.h"
-#include "base/input_file.h"
+#include "base/one_line.h"
+#include "photometry/plain_text.h"
 
 namespace lw {
 namespace {
@@ -19,6 +20,7 @@ constexpr double max_candela = 1e12;        // a thousand lighthouses of a thous
 double folded(const std::vector<double>& planes, double c) {
     const double first = planes.front(), last = planes.back();
     if (planes.size() == 1) return first;
+    if (last - first > 359.999) return c < first ? c + 360 : c > last ? c - 360 : c;
     if (first == -90) {  // C270 to C90
         if (c > 270) return c - 360;
         return c > 90 ? 180 - c : c;
@@ -59,6 +61,13 @@ double interpolated(const Photometry& p, double horizontal, double vertical) {
     return (at(h, v) * (1 - fv) + at(h, v1) * fv) * (1 - fh) + (at(h1, v) * (1 - fv) + at(h1, v1) * fv) * fh;
 }
 
+/// Integral over polar angles `from` to `to` of a value linear from `a` to `b`, times the sine of the angle.
+double band_integral(double from, double to, double a, double b) {
+    if (to - from < 1e-7) return (a + b) / 2 * (std::cos(from) - std::cos(to));
+    const double slope = (b - a) / (to - from);
+    return a * std::cos(from) - b * std::cos(to) + slope * (std::sin(to) - std::sin(from));
+}
+
 void check_flux(const Photometry& photometry, const std::string& name) {
     for (const double value : photometry.candela)
         if (!(value <= max_candela)) throw Error(name + ": gives more than 1e12 cd");
@@ -68,6 +77,14 @@ void check_flux(const Photometry& photometry, const std::string& name) {
     char text[96];
     std::snprintf(text, sizeof text, ": its intensities give %.5g lm but it states %.5g lm", flux, stated);
     throw Error(name + text);
+}
+
+Photometry checked(const std::string& text, const std::string& name, const std::filesystem::path& folder) {
+    const bool eulumdat = upper_case(std::filesystem::path(name).extension().string()) == ".LDT";
+    Photometry photometry = eulumdat ? parse_eulumdat(text, name) : parse_lm63(text, name, folder);
+    check_flux(photometry, name);
+    photometry.file = one_line(name);
+    return photometry;
 }
 
 }  // namespace
@@ -87,19 +104,34 @@ double candela_at(const Photometry& p, glm::dvec3 d) {
     return interpolated(p, p.horizontal.size() == 1 ? p.horizontal[0] : horizontal * degrees, vertical * degrees);
 }
 
-double flux_of(const Photometry& photometry) {
-    constexpr int rows = 360, columns = 360;  // half a degree, one degree
+glm::dvec3 direction_of_angles(Photometry::Type type, double horizontal, double vertical) {
+    const double h = horizontal / degrees, v = vertical / degrees;
+    if (type == Photometry::Type::A) return {std::cos(v) * std::sin(h), std::sin(v), -std::cos(v) * std::cos(h)};
+    if (type == Photometry::Type::B) return {std::sin(h), std::cos(h) * std::sin(v), -std::cos(h) * std::cos(v)};
+    return {std::sin(v) * std::cos(h), std::sin(v) * std::sin(h), -std::cos(v)};
+}
+
+double flux_of(const Photometry& p) {
+    // The angle from the polar axis is the vertical one of types C and A, the horizontal one of type B.
+    const bool lies = p.type == Photometry::Type::B, front = p.type != Photometry::Type::C;
+    std::vector<double> polar = lies ? p.horizontal : p.vertical, around = lies ? p.vertical : p.horizontal;
+    if (polar.size() == 1) polar = {-90, 90};
+    if (around.size() == 1) around = front ? std::vector<double>{-90, 90} : std::vector<double>{0, 360};
+    const size_t rows = p.vertical.size();
+    const auto at = [&](size_t i, size_t j) {
+        const size_t h = std::min(lies ? i : j, p.horizontal.size() - 1), v = lies ? j : i;
+        return p.candela[h * rows + std::min(v, rows - 1)];
+    };
     double flux = 0;
-    for (int row = 0; row < rows; ++row) {
-        const double low = pi * row / rows, high = pi * (row + 1) / rows, middle = (low + high) / 2;
-        const double area = (std::cos(low) - std::cos(high)) * 2 * pi / columns;
-        for (int column = 0; column < columns; ++column) {
-            const double c = 2 * pi * (column + 0.5) / columns;
-            flux += area * candela_at(photometry, {std::sin(middle) * std::cos(c), std::sin(middle) * std::sin(c),
-                                                   -std::cos(middle)});
+    for (size_t j = 0; j + 1 < around.size(); ++j)
+        for (size_t i = 0; i + 1 < polar.size(); ++i) {
+            const double from = (polar[i] + (front ? 90 : 0)) / degrees,
+                         to = (polar[i + 1] + (front ? 90 : 0)) / degrees;
+            flux += band_integral(from, to, (at(i, j) + at(i, j + 1)) / 2, (at(i + 1, j) + at(i + 1, j + 1)) / 2) *
+                    (around[j + 1] - around[j]) / degrees;
         }
-    }
-    return flux;
+    if (!front) return flux * 360 / (around.back() - around.front());
+    return flux * (polar.front() >= 0 ? 2 : 1) * (around.front() >= 0 ? 2 : 1);
 }
 
 double light_output_ratio(const Photometry& photometry) {
@@ -131,22 +163,11 @@ double tilt_factor(const Photometry& photometry, double angle) {
     return angles.size() == 1 ? factors[0] : factors[i] * (1 - share) + factors[i + 1] * share;
 }
 
-Photometry read_photometry(const std::filesystem::path& path) {
-    std::ifstream stream = open_input(path);
-    std::error_code failure;
-    const uintmax_t bytes = std::filesystem::file_size(path, failure);
-    if (!stream || failure) throw Error(path.string() + ": cannot be opened");
-    if (bytes > 16'000'000) throw Error(path.string() + ": larger than 16 MB");
-    const std::string text((std::istreambuf_iterator<char>(stream)), {});
-    return parse_photometry(text, path.filename().string());
-}
+Photometry parse_photometry(const std::string& text, const std::string& name) { return checked(text, name, {}); }
 
-Photometry parse_photometry(const std::string& text, const std::string& name) {
-    std::string extension = std::filesystem::path(name).extension().string();
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c + 32) : c;
-    const Photometry photometry = extension == ".ldt" ? parse_eulumdat(text, name) : parse_lm63(text, name);
-    check_flux(photometry, name);
-    return photometry;
+Photometry read_photometry(const std::filesystem::path& path) {
+    const std::filesystem::path folder = path.parent_path();
+    return checked(read_text_file(path), path.filename().string(), folder.empty() ? "." : folder);
 }
 
 }  // namespace lw

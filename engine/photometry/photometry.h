@@ -20,7 +20,10 @@ struct Photometry {
     double stated_output = 0;  // lm that the file says leave the luminaire; 0 when it does not
     double color_temperature = 0;                   // K, 0 when not given
     std::vector<double> tilt_angles, tilt_factors;  // lamp output by tilt of the luminaire, or empty
-    std::string name;
+    std::string name;                               // of the luminaire
+    std::string file;                               // what begins messages
+    std::filesystem::path tilt_file;                // where TILT= leads, "" when nowhere
+    std::vector<std::string> notes;                 // "FILE: what", of what was not quite as the format has it
 };
 
 /// Reads a .ldt file as EULUMDAT and any other as LM-63. Throws Error("FILE: line N: what") for anything malformed, and
@@ -29,14 +32,18 @@ Photometry read_photometry(const std::filesystem::path& path);
 
 /// The same from the text of a file called `name`.
 Photometry parse_photometry(const std::string& text, const std::string& name);
-/// The two formats, without the check of the flux. `name` begins every message.
-Photometry parse_lm63(const std::string& text, const std::string& name);
+/// The two formats, without the check of the flux. `name` begins every message. A file that TILT= names is looked for
+/// in `folder`, or nowhere when that is empty.
+Photometry parse_lm63(const std::string& text, const std::string& name, const std::filesystem::path& folder = {});
 Photometry parse_eulumdat(const std::string& text, const std::string& name);
 
 /// Candela in a unit direction of the luminaire's frame, linear between the file's angles; 0 where it gives none.
 double candela_at(const Photometry& photometry, glm::dvec3 direction);
 
-/// Flux in lm, by integration over the sphere in steps of one degree.
+/// Unit direction in the luminaire's frame of angles in degrees as a file of this type has them.
+glm::dvec3 direction_of_angles(Photometry::Type type, double horizontal, double vertical);
+
+/// Flux in lm: the integral of candela_at() over the sphere, in closed form.
 double flux_of(const Photometry& photometry);
 
 /// Light output ratio: flux of the luminaire over that of its lamps; 0 for an absolute file.

@@ -28,7 +28,7 @@ Scene load_gltf(const std::filesystem::path& path, const GltfSettings& settings)
     load_lights(file, nodes, object_nodes, scene);
     load_cameras(file, nodes, scene);
     scene.content_hash = content_hash(scene);
-    scene.warnings = std::move(file.warnings);
+    scene.warnings.insert(scene.warnings.begin(), file.warnings.begin(), file.warnings.end());
     return scene;
 } catch (const std::bad_alloc&) {
     throw Error(one_line(path.filename().string() + ": needs more memory than there is"));

@@ -52,7 +52,9 @@ void add_punctual(const GltfFile& file, const PlacedNode& at, Scene& scene) {
     if (index < 0 || size_t(index) >= file.model.lights.size())
         file.fail(label("node", at.node, node.name) + ": there is no light " + std::to_string(index));
     const tinygltf::Light& source = file.model.lights[size_t(index)];
-    scene.lights.push_back(punctual_light(file, source, at, label("light", size_t(index), source.name), scene));
+    const Light light = punctual_light(file, source, at, label("light", size_t(index), source.name), scene);
+    if (is_mirrored(at, light)) scene.mirrored_lights.insert(scene.lights.size());
+    scene.lights.push_back(light);
     const std::string& name = node.name.empty() ? source.name : node.name;
     scene.light_names.push_back(name.empty() ? "light_" + std::to_string(scene.lights.size()) : name);
     scene.light_groups.push_back(group_of(file, at));
@@ -160,9 +162,10 @@ void make_unique(std::vector<std::string>& names) {
 
 void load_lights(GltfFile& file, const std::vector<PlacedNode>& nodes, const std::vector<size_t>& object_nodes,
                  Scene& scene) {
+    KnownProfiles known;
     for (const PlacedNode& at : nodes) {
         add_punctual(file, at, scene);
-        add_profile_light(file, at, scene);
+        add_profile_light(file, at, known, scene);
     }
     add_mesh_lights(file, nodes, object_nodes, scene);
     if (scene.lights.empty())

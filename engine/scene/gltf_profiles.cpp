@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "scene/gltf_accessor.h"
-#include "scene/profile.h"
 
 namespace lw {
 namespace {
@@ -48,7 +47,11 @@ vec3 across_of(const PlacedNode& at, vec3 direction) {
     return vec3(glm::normalize(across));
 }
 
-void add_profile_light(GltfFile& file, const PlacedNode& at, Scene& scene) {
+bool is_mirrored(const PlacedNode& at, const Light& light) {
+    return glm::dot(glm::dvec3(at.world[1]), glm::cross(glm::dvec3(light.across), glm::dvec3(light.direction))) < 0;
+}
+
+void add_profile_light(GltfFile& file, const PlacedNode& at, KnownProfiles& known, Scene& scene) {
     const tinygltf::Node& node = file.model.nodes[at.node];
     const auto* extension = extension_of(node.extensions, "EXT_lights_ies");
     if (!extension) return;
@@ -65,9 +68,17 @@ void add_profile_light(GltfFile& file, const PlacedNode& at, Scene& scene) {
     const glm::dvec3 aim = -glm::dvec3(at.world[2]);
     light.direction = glm::length(aim) > 0 ? vec3(glm::normalize(aim)) : vec3(0, -1, 0);
     light.across = across_of(at, light.direction);
-    attach_photometry(photometry_of(file, index_of(*extension, "light", -1), scene), light, scene);
+    const bool mirrored = is_mirrored(at, light);
+    const int index = index_of(*extension, "light", -1);
+    auto profile = known.find({index, mirrored});
+    if (profile == known.end()) {
+        const Photometry photometry = photometry_of(file, index, scene);
+        profile = known.emplace(std::pair(index, mirrored), add_profile(photometry, mirrored, scene)).first;
+    }
+    attach_profile(profile->second, light);
     light.intensity *= vec3(color * multiplier);
     if (!(dot(light.intensity, vec3(1)) <= max_strength)) file.fail(where + ": the intensity is larger than 1e15");
+    if (mirrored) scene.mirrored_lights.insert(scene.lights.size());
     scene.lights.push_back(light);
     scene.light_names.push_back(node.name.empty() ? "light_" + std::to_string(scene.lights.size()) : node.name);
 }

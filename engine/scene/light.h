@@ -24,8 +24,17 @@ float radius_around(const Scene& scene);
 /// passes the disc around the scene. A table is summed up entry by entry, which takes milliseconds.
 float unit_flux(const Scene& scene, const Light& light);
 
-/// The table of a light that has_table(), as cells between its entries: columns of rows, the first row at the axis.
-/// flux_below[column * rows + row] is the flux of this and all earlier cells, lm per cd of intensity.
+/// A direction of a distribution that has `rows` rows from pole to pole: at the part `within` of the solid angle of a
+/// row.
+struct ProfileDirection {
+    float cosine, sine;  // to the axis
+    float band;          // solid angle of the row over 2 pi
+};
+ProfileDirection in_profile_row(uint row, uint rows, float within);
+
+/// The table of a light that has_table(), as cells between its entries: columns of rows, the first row at the axis. Of
+/// a table of more than 131,072 entries, cells join several. flux_below[column * rows + row] is the flux of this and
+/// all earlier cells, lm per cd of intensity.
 struct ProfileCells {
     uint columns = 0, rows = 0;
     std::vector<float> flux_below;

@@ -3,29 +3,23 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 
 #include "base/error.h"
 #include "scene/ambiance.h"
 #include "scene/content_hash.h"
 #include "scene/lamp_factors.h"
+#include "scene/profile_table.h"
 #include "shaders/color.h"
 
 namespace lw {
 namespace {
 
-constexpr uint columns_of_table = 144;  // every 2.5 degrees of C
-constexpr uint rows_of_table = 361;     // every 0.5 degrees of gamma
 constexpr double pi = 3.14159265358979323846;
 
-std::vector<double> sampled(const Photometry& photometry, uint columns) {
-    std::vector<double> candela;
-    for (uint column = 0; column < columns; ++column)
-        for (uint row = 0; row < rows_of_table; ++row) {
-            const double c = 2 * pi * column / columns, gamma = pi * row / (rows_of_table - 1);
-            candela.push_back(candela_at(
-                photometry, {std::sin(gamma) * std::cos(c), std::sin(gamma) * std::sin(c), -std::cos(gamma)}));
-        }
-    return candela;
+void tell(const std::string& what, Scene& scene) {
+    if (std::find(scene.warnings.begin(), scene.warnings.end(), what) == scene.warnings.end())
+        scene.warnings.push_back(what);
 }
 
 /// The lamp's colour at luminance 1.
@@ -63,22 +57,30 @@ vec3 filter_to_temperature(vec3 intensity, double kelvin) {
     return filter;
 }
 
-void attach_photometry(const Photometry& photometry, Light& light, Scene& scene) {
-    const bool round = photometry.type == Photometry::Type::C && photometry.horizontal.size() == 1;
-    const uint columns = round ? 1 : columns_of_table;
-    const std::vector<double> candela = sampled(photometry, columns);
-    const double strongest = *std::max_element(candela.begin(), candela.end());
+Profile add_profile(const Photometry& photometry, bool mirrored, Scene& scene) {
+    const ProfileTable table = profile_table(photometry, mirrored);
+    const double strongest = *std::max_element(table.candela.begin(), table.candela.end());
+    const Profile profile{photometry, strongest, uint(scene.texels.size())};
+    scene.texels.push_back(table.columns);
+    scene.texels.push_back(table.rows);
+    for (const double value : table.candela) scene.texels.push_back(std::bit_cast<uint>(float(value / strongest)));
+    for (const std::string& note : photometry.notes) tell(note, scene);
+    if (!table.follows) tell(photometry.file + ": its beam is narrower than the finest table can follow", scene);
+    if (!photometry.tilt_file.empty()) scene.files.push_back(photometry.tilt_file);
+    return profile;
+}
+
+void attach_profile(const Profile& profile, Light& light) {
     const double tilt = std::acos(std::clamp(double(-light.direction.y), -1.0, 1.0)) * 180 / pi;
+    const double strongest = profile.strongest * tilt_factor(profile.photometry, tilt);
     light.type = light_profile;
-    light.intensity = chromaticity(light.intensity, photometry) * float(strongest * tilt_factor(photometry, tilt));
+    light.intensity = chromaticity(light.intensity, profile.photometry) * float(strongest);
     light.cos_inner = light.cos_outer = 0;
-    light.profile = uint(scene.texels.size());
-    scene.texels.push_back(columns);
-    scene.texels.push_back(rows_of_table);
-    for (const double value : candela) scene.texels.push_back(std::bit_cast<uint>(float(value / strongest)));
+    light.profile = profile.first_word;
 }
 
 Scene with_photometry(Scene scene, const std::vector<std::string>& texts) {
+    std::map<std::pair<std::filesystem::path, bool>, Profile> known;
     for (const std::string& text : texts) {
         const size_t equals = text.find('=');
         if (equals == std::string::npos) throw Error("--ies " + text + ": write LAMP=FILE");
@@ -87,7 +89,12 @@ Scene with_photometry(Scene scene, const std::vector<std::string>& texts) {
         if (!is_at_point(light.type))
             throw Error("--ies " + text + ": only a point or spot lamp can have a photometric file");
         const std::filesystem::path file = text.substr(equals + 1);
-        attach_photometry(read_photometry(file), light, scene);
+        const bool mirrored = scene.mirrored_lights.contains(lamp);
+        auto profile = known.find({file, mirrored});
+        if (profile == known.end())
+            profile =
+                known.emplace(std::pair(file, mirrored), add_profile(read_photometry(file), mirrored, scene)).first;
+        attach_profile(profile->second, light);
         scene.files.push_back(file);
     }
     if (!texts.empty()) scene.content_hash = content_hash(scene);

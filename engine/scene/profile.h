@@ -9,10 +9,21 @@
 
 namespace lw {
 
+/// A light distribution among the texels of a scene, for any number of lamps.
+struct Profile {
+    Photometry photometry;
+    double strongest;  // cd of a table entry of 1
+    uint first_word;   // of the table
+};
+
+/// Adds the table of a file to the scene, and the notes of the file to its warnings. With `mirrored`, C grows in the
+/// other direction. The caller renews scene.content_hash.
+Profile add_profile(const Photometry& photometry, bool mirrored, Scene& scene);
+
 /// Gives a point or spot lamp the distribution of a luminaire, which aims along light.direction with plane C0 towards
 /// light.across. The lamp's intensity becomes the largest candela of the file, times the factor for its tilt. Its
-/// colour stays; a white lamp gets the colour temperature that the file states. The caller renews scene.content_hash.
-void attach_photometry(const Photometry& photometry, Light& light, Scene& scene);
+/// colour stays; a white lamp gets the colour temperature that the file states.
+void attach_profile(const Profile& profile, Light& light);
 
 /// RGB factors that give a lamp of this intensity the colour of a black body at `kelvin` and keep its luminance. Throws
 /// Error when the lamp emits nothing in a channel that the black body needs.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<std::string> light_names;   // unique; per light
     std::vector<std::string> light_groups;  // name of the node above each light, "" at the root
+    std::set<size_t> mirrored_lights;       // lamps whose nodes mirror: C grows the other way around
     std::vector<Emitter> emitters;          // triangles of mesh lights, grouped per light
     std::vector<Camera> cameras;            // at least one
 

@@ -158,13 +158,11 @@ Emission Emitters::emit_profile(const Light& light, const ProfileCells& cells, f
     const float below = cell == 0 ? 0.0f : cells.flux_below[cell - 1], own = *chosen - below;
     const float within = clamp((u * total - below) / std::max(own, 1e-30f), 0.0f, 0.99999994f);
     const uint column = cell / cells.rows, row = cell % cells.rows;
-    const float low = std::cos(lw_pi * float(row) / float(cells.rows)),
-                high = std::cos(lw_pi * float(row + 1) / float(cells.rows));
-    const float cosine = low + within * (high - low), c = 2 * lw_pi * (float(column) + v) / float(cells.columns);
-    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-    const vec3 direction = normalize(light.direction * cosine + light.across * (sine * std::cos(c)) +
-                                     cross(light.across, light.direction) * (sine * std::sin(c)));
-    const float area = (low - high) * 2 * lw_pi / float(cells.columns);
+    const ProfileDirection polar = in_profile_row(row, cells.rows, within);
+    const float c = 2 * lw_pi * (float(column) + v) / float(cells.columns);
+    const vec3 direction = normalize(light.direction * polar.cosine + light.across * (polar.sine * std::cos(c)) +
+                                     cross(light.across, light.direction) * (polar.sine * std::sin(c)));
+    const float area = polar.band * 2 * lw_pi / float(cells.columns);
     const float flux = reader_.profile_value(light, direction) * area * total / std::max(own, 1e-30f);
     return {light.position, vec3(0), direction, vec3(flux)};
 }

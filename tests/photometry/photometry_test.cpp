@@ -128,7 +128,7 @@ TEST(Photometry, MalformedFilesAreRefusedByNameAndLine) {
         {"1 1000 1 3 1 1", "1 1000 1 3 1 4", "photometric type"},
         {"1 1000 1 3", "1 1000 1 1e9", "whole number"},
         {"TILT=NONE", "TILT=lamp.tlt", "TILT=INCLUDE"},
-        {"0 45 90\n0", "5 45 90\n0", "vertical angles"},
+        {"0 45 90\n0", "-5 45 90\n0", "vertical angles"},
         {"100 50 0", "0 0 0", "gives no light"},
         {"1 1000 1 3", "1 1000 nan 3", "not a number"}};
     for (const auto& [from, to, what] : cases) {

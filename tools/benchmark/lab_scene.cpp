@@ -104,7 +104,7 @@ void LabScene::add_luminaire(vec3 position, vec3 direction, vec3 across, const P
     light.direction = normalize(direction);
     light.across = normalize(across);
     light.intensity = vec3(1);
-    attach_photometry(photometry, light, scene_);
+    attach_profile(add_profile(photometry, false, scene_), light);
 }
 
 void LabScene::add_sun(vec3 direction, float lux) {
