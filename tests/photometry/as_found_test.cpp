@@ -232,7 +232,7 @@ TEST(FilesAsFound, ColoursOfLampsAsCataloguesWriteThem) {
                                                      {"99999999999999999999999", 0}};
     for (const auto& [text, kelvin] : colors) EXPECT_EQ(temperature_of(text), kelvin) << text;
     const std::string ldt = read_text(LUMENWALK_SOURCE_DIR "/data/photometry/washer.ldt");
-    EXPECT_EQ(parse_photometry(replaced(ldt, "\n3000\r\n", "\n840/4000K\r\n"), "l.ldt").color_temperature, 4000);
+    EXPECT_EQ(parse_photometry(replaced(ldt, "\n3000 K\r\n", "\n840/4000K\r\n"), "l.ldt").color_temperature, 4000);
 }
 
 /// Lux from the first lamp, which looks down, on a floor 2 m below it, at a place beside its foot.

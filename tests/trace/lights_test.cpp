@@ -83,7 +83,7 @@ Scene scene_with(LightType type) {
             add_rectangle(scene, light);
             break;
         case light_profile:
-            attach_photometry(batwing(), light, scene);
+            attach_profile(add_profile(batwing(), false, scene), light);
             break;
     }
     scene.lights = {light};
