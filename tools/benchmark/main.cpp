@@ -18,6 +18,7 @@ const lw::Section sections[] = {
     {"knn", "Figure 6: time of the k nearest photons against photon count, four structures", lw::measure_knn},
     {"table1", "Table 1: global 3D kd-tree against the maps of triangles", lw::measure_table1},
     {"modes", "gather modes: milliseconds, candidates, bytes, errors", lw::measure_modes},
+    {"dimming", "frames after a lamp was dimmed beside any other: milliseconds, error", lw::measure_dimming},
     {"convergence", "error against photons", lw::measure_convergence},
     {"scaling", "cost against photons, triangles, lights and pixels", lw::measure_scaling},
     {"equal-time", "the path tracer at equal time and at equal error", lw::measure_equal_time},

@@ -26,6 +26,7 @@ struct Bench {
 std::vector<Table> measure_knn(const Bench& bench);
 std::vector<Table> measure_table1(const Bench& bench);
 std::vector<Table> measure_modes(const Bench& bench);
+std::vector<Table> measure_dimming(const Bench& bench);
 std::vector<Table> measure_convergence(const Bench& bench);
 std::vector<Table> measure_scaling(const Bench& bench);
 std::vector<Table> measure_equal_time(const Bench& bench);
