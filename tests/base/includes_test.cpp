@@ -35,6 +35,9 @@ const std::map<std::string, std::vector<std::string>> fences = {
     {"tiny_gltf", {"scene/gltf"}},
     {"OpenEXR/", {"image/exr."}},
     {"stb/", {"image/png."}},
+    {"webp/", {"image/webp."}},
+    {"draco/", {"scene/gltf_draco."}},
+    {"meshoptimizer", {"scene/gltf_meshopt."}},
     {"tbb/", {"base/parallel.h"}},
     {"vulkan/", {"gpu/", "gather/"}},
     {"CLI/", {}},
@@ -45,7 +48,8 @@ const std::map<std::string, std::vector<std::string>> fences = {
     {"shaders/gather.glsl", {"maps/estimate."}},
     {"shaders/follow.glsl", {"maps/estimate."}},
     {"nlohmann/",
-     {"scene/ambiance.", "scene/json_file.", "scene/recorded_path.", "scene/gltf_file.", "scene/gltf_ranges."}},
+     {"scene/ambiance.", "scene/json_file.", "scene/recorded_path.", "scene/gltf_file.", "scene/gltf_ranges.",
+      "scene/gltf_repairs."}},
 };
 
 struct Include {

@@ -79,6 +79,15 @@ GltfText meshopt_file(std::vector<unsigned char> vertices, const std::string& na
     return g;
 }
 
+/// A lossless WebP file of one row of RGBA pixels.
+std::vector<unsigned char> webp_row(const std::vector<uint8_t>& rgba) {
+    uint8_t* encoded = nullptr;
+    const size_t size = WebPEncodeLosslessRGBA(rgba.data(), int(rgba.size() / 4), 1, int(rgba.size()), &encoded);
+    const std::vector<unsigned char> bytes(encoded, encoded + size);
+    WebPFree(encoded);
+    return bytes;
+}
+
 std::vector<unsigned char> meshopt_vertices() {
     std::vector<unsigned char> bytes(meshopt_encodeVertexBufferBound(4, 12));
     bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), corners.data(), 4, 12));
@@ -138,11 +147,7 @@ TEST(GltfFormats, AFallbackBufferNeedsNoBytes) {
 }
 
 TEST(GltfFormats, WebpPicturesAreDecoded) {
-    const std::vector<uint8_t> rgba{200, 100, 50, 255, 10, 20, 30, 128};
-    uint8_t* encoded = nullptr;
-    const size_t size = WebPEncodeLosslessRGBA(rgba.data(), 2, 1, 8, &encoded);
-    const std::vector<unsigned char> bytes(encoded, encoded + size);
-    WebPFree(encoded);
+    const std::vector<unsigned char> bytes = webp_row({200, 100, 50, 255, 10, 20, 30, 128});
     GltfText g = square();
     g.floats("TEXCOORD_0", {0, 0, 1, 0, 0, 1, 1, 1}, "VEC2");
     g.doc["images"] = {{{"bufferView", g.view(bytes)}, {"mimeType", "image/webp"}}};
@@ -190,11 +195,7 @@ TEST(GltfFormats, SpecularGlossinessBecomesADielectricOfThatSpecularColour) {
 }
 
 TEST(GltfFormats, GlossinessInATextureBecomesRoughness) {
-    const std::vector<uint8_t> rgba{255, 255, 255, 51};
-    uint8_t* encoded = nullptr;
-    const size_t size = WebPEncodeLosslessRGBA(rgba.data(), 1, 1, 4, &encoded);
-    const std::vector<unsigned char> bytes(encoded, encoded + size);
-    WebPFree(encoded);
+    const std::vector<unsigned char> bytes = webp_row({255, 255, 255, 51});
     GltfText g = square();
     g.floats("TEXCOORD_0", {0, 0, 1, 0, 0, 1, 1, 1}, "VEC2");
     g.doc["images"] = {{{"bufferView", g.view(bytes)}, {"mimeType", "image/webp"}}};
@@ -281,11 +282,7 @@ TEST(GltfFormats, ARequiredExtensionOfTheLookOpensWithAWarningUnlessStrict) {
 TEST(GltfFormats, AMaterialThatGlowsBlackIsNoLamp) {
     GltfText g = square();
     g.floats("TEXCOORD_0", {0, 0, 1, 0, 0, 1, 1, 1}, "VEC2");
-    const std::vector<uint8_t> black{0, 0, 0, 255};
-    uint8_t* encoded = nullptr;
-    const size_t size = WebPEncodeLosslessRGBA(black.data(), 1, 1, 4, &encoded);
-    const std::vector<unsigned char> bytes(encoded, encoded + size);
-    WebPFree(encoded);
+    const std::vector<unsigned char> bytes = webp_row({0, 0, 0, 255});
     g.doc["images"] = {{{"bufferView", g.view(bytes)}, {"mimeType", "image/webp"}}};
     g.doc["textures"] = {{{"source", 0}}};
     g.doc["materials"] = {{{"emissiveFactor", {1, 1, 1}}}};

@@ -69,9 +69,8 @@ class Frames {
     /// RMS difference of the picture from that with all lamps summed anew, in parts of its mean.
     double error_of_added() {
         const std::vector<float> added = lux();
-        submit_and_wait(device_, [&](vk::CommandBuffer commands) {
-            resident_.record_lamp_factors(commands, factors_, 0, true);
-        });
+        submit_and_wait(
+            device_, [&](vk::CommandBuffer commands) { resident_.record_lamp_factors(commands, factors_, 0, true); });
         frame_ms([](auto&) {});
         const std::vector<float> whole = lux();
         double difference = 0, sum = 0;
@@ -124,13 +123,16 @@ Row measure_lamps(const Bench& bench, size_t lamps, uint64_t photons) {
 }  // namespace
 
 std::vector<Table> measure_dimming(const Bench& bench) {
-    Table table{"dimming", "frames",
-                "Frames of the apartment (camera living) at 960x540 without shadow rays, from recording to the end on the device, "
-                "medians of 11: while nothing changes, with another power of one lamp in each frame, and of all "
-                "lamps. Lamps beyond the nine of the file are points of 100 cd. The error is the RMS difference in "
-                "illuminance of the picture after 11 single changes from that with all lamps summed anew, in percent of "
-                "the mean.",
-                {}};
+    Table table{
+        "dimming",
+        "frames",
+        "Frames of the apartment (camera living) at 960x540 without shadow rays, from recording to the end on the "
+        "device, "
+        "medians of 11: while nothing changes, with another power of one lamp in each frame, and of all "
+        "lamps. Lamps beyond the nine of the file are points of 100 cd. The error is the RMS difference in "
+        "illuminance of the picture after 11 single changes from that with all lamps summed anew, in percent of "
+        "the mean.",
+        {}};
     const auto photons = bench.pick<uint64_t>(100'000, 4'000'000);
     for (size_t lamps : {9, 64}) table.rows.push_back(measure_lamps(bench, lamps, photons));
     return {table};
