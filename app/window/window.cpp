@@ -3,7 +3,11 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <dlfcn.h>
+
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 #include "base/error.h"
 
@@ -31,10 +35,25 @@ std::optional<Gamepad> first_gamepad() {
     return std::nullopt;
 }
 
+/// Xlib calls this when the display has gone away. Its own text has one line or two, by the reason.
+int end_without_display(void*) {
+    std::fputs("lumenwalk: the display has gone away\n", stderr);
+    std::exit(1);
+}
+
+/// GLFW loads libX11 when it needs it, so the handler is set by its name.
+void set_display_handler() {
+    using Handler = int (*)(void*);
+    void* const x11 = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+    const auto set = x11 ? reinterpret_cast<Handler (*)(Handler)>(dlsym(x11, "XSetIOErrorHandler")) : nullptr;
+    if (set) set(end_without_display);
+}
+
 /// Initialises GLFW for the first window; the last one ends it.
 void start_glfw() {
     glfwInitHint(GLFW_JOYSTICK_HAT_BUTTONS, GLFW_FALSE);
     if (!glfwInit()) throw Error("no display: " + last_glfw_error() + " (--play replays a path without one)");
+    set_display_handler();
 }
 
 }  // namespace
