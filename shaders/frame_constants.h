@@ -36,7 +36,7 @@ LW_CONSTANT(bool, has_shadow_rays, true)
 LW_CONSTANT(bool, has_followed, true)         // view paths go on from some surfaces
 LW_CONSTANT(float, followed_roughness, 0.0f)  // lobes of smoother surfaces are followed
 LW_CONSTANT(bool, follows_through, true)      // glass and blends are surfaces of the view, what is behind is followed
-LW_CONSTANT(uint, first_see_through, no_grid)  // with ray queries: first triangle that may let light through, or no_triangle
+LW_CONSTANT(uint, first_see_through, no_grid)  // with ray queries: first triangle that may let light through
 // Which triangles are drawn (gather/cull_pass).
 LW_CONSTANT(uint, first_listed, 0u)        // where the triangles of a draw begin in the list
 LW_CONSTANT(float, pixel_margin, 0.0625f)  // pixels by which a triangle may reach beyond its box

@@ -136,10 +136,9 @@ void LampSum::record(vk::CommandBuffer commands, LampSumSetting& setting, std::s
     if (same && (setting.is_whole || !whole)) return;
     const float total = total_of(powers);
     const bool in_range = total <= max_brightening * setting.total && total >= max_dimming * setting.total;
-    const bool adds =
-        !setting.powers.empty() && in_range && keeps_all(setting) && 2 * changed(setting, powers) < powers.size();
-    whole = whole || !adds;
-    if (!setting.powers.empty() && !same) keep_direct(setting);  // the next change is added
+    const bool few_change = !setting.powers.empty() && !same && 2 * changed(setting, powers) < powers.size();
+    whole = whole || !few_change || !in_range || !keeps_all(setting);
+    if (few_change) keep_direct(setting);  // the next change is added
     if (whole) setting.total = total, setting.scale = cells_->scale_of(powers);
     const std::vector<LampTerm> terms = terms_of(setting, powers, whole);
     record_update(commands, setting.terms, std::span<const LampTerm>(terms));  // after the frame before
