@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/base64.h"
 #include "image/png.h"
 #include "measure/isolux.h"
 
@@ -12,17 +13,6 @@ namespace {
 
 constexpr size_t max_numbers = 600;
 constexpr double drawing_width = 720;  // CSS pixels
-
-std::string base64(const std::vector<uint8_t>& bytes) {
-    static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-        for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? letters[bits >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
 
 /// The value at a place (x, y) of the grid, in cells: bilinear between the sensors, constant beyond the outermost.
 double value_at(const std::vector<Value>& values, const GridShape& grid, double x, double y) {

@@ -8,6 +8,7 @@
 
 #include "scene/gltf_profiles.h"
 #include "scene/light.h"
+#include "scene/triangle.h"
 #include "shaders/color.h"
 
 namespace lw {
@@ -63,9 +64,9 @@ void add_punctual(const GltfFile& file, const PlacedNode& at, Scene& scene) {
 /// Adds a triangle to a mesh light: its area, and its area-weighted position and direction to the sums `moment` and
 /// `facing`.
 void add_emitter(uint triangle, const Scene& scene, Light& light, glm::dvec3& moment, glm::dvec3& facing) {
-    const uvec3 t = scene.triangles[triangle];
-    const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
-    const glm::dvec3 normal = glm::cross(b - a, c - a) * 0.5;
+    const auto corners = triangle_corners(scene, triangle);
+    const glm::dvec3 a(corners[0]), b(corners[1]), c(corners[2]);
+    const glm::dvec3 normal = edge_product(a, b, c) * 0.5;
     const double area = glm::length(normal);
     const bool both_sides = (scene.material_of(triangle).flags & material_double_sided) != 0;
     light.area += float(both_sides ? 2 * area : area);

@@ -7,6 +7,7 @@
 
 #include "scene/gltf_accessor.h"
 #include "scene/tangents.h"
+#include "scene/triangle.h"
 
 namespace lw {
 namespace {
@@ -77,8 +78,8 @@ std::vector<uint32_t> keep_vertices(std::vector<uvec3>& triangles, size_t vertex
 }
 
 vec3 face_normal(const LocalPrimitive& p, uvec3 t) {
-    const glm::dvec3 a(p.positions[t.x]);
-    const glm::dvec3 n = glm::cross(glm::dvec3(p.positions[t.y]) - a, glm::dvec3(p.positions[t.z]) - a);
+    const glm::dvec3 n =
+        edge_product(glm::dvec3(p.positions[t.x]), glm::dvec3(p.positions[t.y]), glm::dvec3(p.positions[t.z]));
     const double length = glm::length(n);
     return length > 0 && std::isfinite(length) ? vec3(n / length) : vec3(0, 1, 0);
 }

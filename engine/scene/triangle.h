@@ -12,7 +12,10 @@ inline std::array<vec3, 3> triangle_corners(const Scene& scene, size_t triangle)
     return {scene.positions[c.x], scene.positions[c.y], scene.positions[c.z]};
 }
 
-/// edge_product() of its corners.
+/// edge_product() in double: along the normal of the front, as long as twice the area.
+inline glm::dvec3 edge_product(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) { return glm::cross(b - a, c - a); }
+
+/// edge_product() of its corners, m2.
 inline vec3 triangle_product(const Scene& scene, size_t triangle) {
     const auto [a, b, c] = triangle_corners(scene, triangle);
     return edge_product(a, b, c);

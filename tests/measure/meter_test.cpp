@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
+#include "base/error_of.h"
 #include "base/parallel.h"
 #include "benchmark/lab_scene.h"
 #include "maps/bake.h"
@@ -36,15 +36,6 @@ Survey survey_of(const Scene& scene, std::vector<SensorSet> sets, std::vector<Am
 
 SensorSet points(std::vector<Sensor> sensors) {
     return {SensorSet::Kind::points, "points", "", std::move(sensors), {}, {}};
-}
-
-std::string error_of(const std::function<void()>& body) {
-    try {
-        body();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
 }
 
 TEST(Meter, LightDoesNotPassAWallWithoutThickness) {
@@ -153,17 +144,18 @@ TEST(Grid, BadTextsNameTheGridAndWhatIsWrong) {
         {"desk: 0,0,0 to 10,0,10 kind=round", "planar or cylindrical"},
     };
     for (const auto& [text, what] : cases) {
-        const std::string error = error_of([&] { parse_grid(text); });
+        const std::string error = test::error_of([&] { parse_grid(text); });
         EXPECT_NE(error.find(what), std::string::npos) << text << ": " << error;
         EXPECT_NE(error.find("desk"), std::string::npos) << text << ": " << error;
     }
     const Scene scene = two_chambers();
-    EXPECT_NE(error_of([&] { make_surface("table", scene); }).find("no object of this name; there are: ceiling"),
+    EXPECT_NE(test::error_of([&] { make_surface("table", scene); }).find("no object of this name; there are: ceiling"),
               std::string::npos);
-    EXPECT_NE(error_of([&] { make_surface("floor: facing=-y", scene); }).find("no face that looks this way"),
+    EXPECT_NE(test::error_of([&] { make_surface("floor: facing=-y", scene); }).find("no face that looks this way"),
               std::string::npos);
-    EXPECT_NE(error_of([&] { make_grid(parse_grid("g: 0,0,0 to 10,0,10 spacing=0.001"), scene); }).find("a million"),
-              std::string::npos);
+    EXPECT_NE(
+        test::error_of([&] { make_grid(parse_grid("g: 0,0,0 to 10,0,10 spacing=0.001"), scene); }).find("a million"),
+        std::string::npos);
 }
 
 TEST(Grid, PointsOfAFileAndTheirErrors) {
@@ -179,11 +171,12 @@ TEST(Grid, PointsOfAFileAndTheirErrors) {
     write_text(folder / "marked.csv", "\xEF\xBB\xBFname,x,y,z\r\nseat,1,1.2,1\r\n");  // as spreadsheets write it
     EXPECT_EQ(read_points(folder / "marked.csv", scene).sensors.size(), 1u);
     write_text(folder / "bad.csv", "name,x,y,z\nseat,1,1.2\n");
-    EXPECT_NE(error_of([&] { read_points(folder / "bad.csv", scene); }).find("bad.csv: line 2: "), std::string::npos);
+    EXPECT_NE(test::error_of([&] { read_points(folder / "bad.csv", scene); }).find("bad.csv: line 2: "),
+              std::string::npos);
     write_text(folder / "nan.csv", "seat,1,nan,3\n");
-    EXPECT_NE(error_of([&] { read_points(folder / "nan.csv", scene); }).find("line 1: "), std::string::npos);
+    EXPECT_NE(test::error_of([&] { read_points(folder / "nan.csv", scene); }).find("line 1: "), std::string::npos);
     write_text(folder / "empty.csv", "name,x,y,z\n");
-    EXPECT_NE(error_of([&] { read_points(folder / "empty.csv", scene); }).find("no points"), std::string::npos);
+    EXPECT_NE(test::error_of([&] { read_points(folder / "empty.csv", scene); }).find("no points"), std::string::npos);
 }
 
 TEST(Grid, SurfacePointsAreEvenByArea) {
@@ -215,7 +208,7 @@ TEST(Statistics, JudgeATaskOnlyOutsideTheInterval) {
     const Value dark;
     const Statistics outside = statistics_of(std::span(&unlit, 1), std::span(&dark, 1));
     EXPECT_EQ(judge(outside, find_task("office")).both(), Verdict::undecided) << "outside the room";
-    EXPECT_NE(error_of([] { find_task("nap"); }).find("there are: office"), std::string::npos);
+    EXPECT_NE(test::error_of([] { find_task("nap"); }).find("there are: office"), std::string::npos);
 }
 
 TEST(Isolux, LineOfAConeIsACircle) {

@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
-#include "base/error.h"
+#include "base/error_of.h"
 #include "photometry/lamp_color.h"
 #include "photometry/photometry.h"
 #include "programs/command.h"
@@ -45,15 +44,6 @@ std::string utf16(const std::string& text, bool big_endian) {
 
 glm::dvec3 direction(double gamma, double c) { return direction_of_angles(Photometry::Type::C, c, gamma); }
 
-std::string error_of(const std::function<void()>& body) {
-    try {
-        body();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
-}
-
 std::string notes_of(const Photometry& photometry) {
     std::string notes;
     for (const std::string& note : photometry.notes) notes += note + "\n";
@@ -74,9 +64,9 @@ TEST(FilesAsFound, LineEndsAndEncodingsOfAnySystem) {
             EXPECT_TRUE(found.notes.empty()) << notes_of(found);
         }
     }
-    EXPECT_NE(error_of([] { parse_photometry(replaced(Lm63().text(), "400 0", "x 0"), "l.ies"); }).find("line 9"),
+    EXPECT_NE(test::error_of([] { parse_photometry(replaced(Lm63().text(), "400 0", "x 0"), "l.ies"); }).find("line 9"),
               std::string::npos);
-    EXPECT_NE(error_of([] {
+    EXPECT_NE(test::error_of([] {
                   parse_photometry(replaced(replaced(Lm63().text(), "400 0", "x 0"), "\n", "\r"), "l.ies");
               }).find("line 9"),
               std::string::npos);
@@ -104,7 +94,7 @@ TEST(FilesAsFound, DecimalCommasAreRead) {
     const Lm63 separated{.vertical = "0,30,60,90", .candela = "1000,800, 400,0"};
     EXPECT_TRUE(separated.photometry().notes.empty());
     // Thousands separated: neither reading has as many numbers as there should be.
-    EXPECT_NE(error_of([] { Lm63{.candela = "1,000.5 800.5 400.5 0.5"}.photometry(); }).find("left over"),
+    EXPECT_NE(test::error_of([] { Lm63{.candela = "1,000.5 800.5 400.5 0.5"}.photometry(); }).find("left over"),
               std::string::npos);
 }
 
@@ -139,7 +129,8 @@ TEST(FilesAsFound, PlanesGoAroundTheCircleFromAnywhere) {
         EXPECT_TRUE(p.notes.empty()) << notes_of(p);
     }
     for (const auto& [first, count] : {std::pair{0.0, 20}, {30.0, 7}, {15.0, 1}})
-        EXPECT_NE(error_of([&] { around(first, 15, count); }).find("horizontal angles of type C"), std::string::npos)
+        EXPECT_NE(test::error_of([&] { around(first, 15, count); }).find("horizontal angles of type C"),
+                  std::string::npos)
             << first;
 }
 
@@ -154,7 +145,7 @@ TEST(FilesAsFound, AnglesThatEndEarlyOrStartLateGiveNothingElsewhere) {
         EXPECT_NE(notes_of(p).find("degrees only; 0 is taken elsewhere"), std::string::npos) << notes_of(p);
     }
     for (const char* vertical : {"-5 30 60 90", "0 30 60 190"})
-        EXPECT_NE(error_of([&] { Lm63{.vertical = vertical}.photometry(); }).find("vertical angles of type C"),
+        EXPECT_NE(test::error_of([&] { Lm63{.vertical = vertical}.photometry(); }).find("vertical angles of type C"),
                   std::string::npos);
 }
 
@@ -163,7 +154,7 @@ TEST(FilesAsFound, TiltInAnyCaseAndSpacing) {
         EXPECT_EQ(candela_at(Lm63{.tilt = tilt}.photometry(), {0, 0, -1}), 1000) << tilt;
     for (const char* tilt : {"tilt=include", "TILT = Include"})
         EXPECT_EQ(tilt_factor(Lm63{.tilt = std::string(tilt) + "\n1\n3\n0 45 90\n1 0.9 0.5"}.photometry(), 45), 0.9);
-    EXPECT_NE(error_of([] { Lm63{.tilt = "TILT NONE"}.photometry(); }).find("before TILT="), std::string::npos);
+    EXPECT_NE(test::error_of([] { Lm63{.tilt = "TILT NONE"}.photometry(); }).find("before TILT="), std::string::npos);
 }
 
 TEST(FilesAsFound, ATiltFileIsReadFromTheFolderOfTheFile) {
@@ -175,7 +166,7 @@ TEST(FilesAsFound, ATiltFileIsReadFromTheFolderOfTheFile) {
         EXPECT_NEAR(tilt_factor(p, 45), 0.9, 1e-12) << tilt;
         EXPECT_EQ(p.tilt_file.filename(), "Lamp.TLT");
     }
-    const auto refused = [&] { return error_of([&] { read_photometry(folder / "l.ies"); }); };
+    const auto refused = [&] { return test::error_of([&] { read_photometry(folder / "l.ies"); }); };
     write_text(folder / "Lamp.TLT", "1\n3\n0 45 40\n1 0.9 0.5\n");
     EXPECT_EQ(refused(), "l.ies: Lamp.TLT: line 3: the tilt angles must rise");
     for (const char* tilt : {"TILT=other.tlt", "TILT=..", "TILT=", "TILT=/"}) {
@@ -191,7 +182,7 @@ TEST(FilesAsFound, NegativeIntensitiesThatAreNoiseAreToldAndZero) {
     const std::string ldt = read_text(LUMENWALK_SOURCE_DIR "/data/photometry/washer.ldt");
     const Photometry washer = parse_photometry(replaced(ldt, "\n0.000\r\n", "\n-0.01\r\n"), "w.ldt");
     EXPECT_EQ(notes_of(washer), "w.ldt: negative intensities, the lowest of them -0.01, are taken as 0\n");
-    EXPECT_EQ(error_of([] { Lm63{.candela = "1000 800 -4 0"}.photometry(); }),
+    EXPECT_EQ(test::error_of([] { Lm63{.candela = "1000 800 -4 0"}.photometry(); }),
               "l.ies: the intensity at plane 0, angle 60 is negative (-4)");
 }
 
@@ -285,7 +276,7 @@ TEST(FilesAsFound, NodesThatMirrorHaveTheMirroredDistribution) {
         const std::string text = to_one_side.text();
         g.doc["extensionsUsed"].push_back("EXT_lights_ies");
         g.doc["extensions"]["EXT_lights_ies"]["lights"] = {
-            {{"uri", "data:text/plain;base64," + test::base64({text.begin(), text.end()})}}};
+            {{"uri", "data:text/plain;base64," + base64(std::vector<uint8_t>(text.begin(), text.end()))}}};
         g.doc["nodes"][1]["extensions"] = {{"EXT_lights_ies", {{"light", 0}}}};
         for (const Scene& scene : {by_option, g.load()}) {
             EXPECT_NEAR(lux_below(scene, c90), towards_minus_z ? bright : 0, 0.02) << scale[0] << " " << scale[2];

@@ -4,10 +4,9 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
 #include <tuple>
 
-#include "base/error.h"
+#include "base/error_of.h"
 #include "base/random.h"
 #include "photometry/photometry.h"
 #include "scene/gltf.h"
@@ -25,15 +24,6 @@ Photometry file(const std::string& name) { return read_photometry(LUMENWALK_SOUR
 glm::dvec3 direction(double gamma_deg, double c_deg) {
     const double g = gamma_deg * pi / 180, c = c_deg * pi / 180;
     return {std::sin(g) * std::cos(c), std::sin(g) * std::sin(c), -std::cos(g)};
-}
-
-std::string error_of(const std::function<void()>& body) {
-    try {
-        body();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
 }
 
 TEST(Photometry, FluxAndIntensityAreThoseOfTheFormulas) {
@@ -118,7 +108,7 @@ TEST(Photometry, MalformedFilesAreRefusedByNameAndLine) {
     const std::string good = "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 1 0 0 0\n1 1 30\n0 45 90\n0\n100 50 0\n";
     EXPECT_NO_THROW(parse_photometry(good, "x.ies"));
     for (size_t size = 0; size + 8 < good.size(); ++size) {
-        const std::string error = error_of([&] { parse_photometry(good.substr(0, size), "x.ies"); });
+        const std::string error = test::error_of([&] { parse_photometry(good.substr(0, size), "x.ies"); });
         EXPECT_EQ(error.rfind("x.ies: ", 0), 0u) << size << ": " << error;
     }
     const std::tuple<const char*, const char*, const char*> cases[] = {
@@ -134,7 +124,7 @@ TEST(Photometry, MalformedFilesAreRefusedByNameAndLine) {
     for (const auto& [from, to, what] : cases) {
         std::string text = good;
         text.replace(text.find(from), std::string(from).size(), to);
-        const std::string error = error_of([&] { parse_photometry(text, "x.ies"); });
+        const std::string error = test::error_of([&] { parse_photometry(text, "x.ies"); });
         EXPECT_NE(error.find(what), std::string::npos) << to << ": " << error;
     }
 }
@@ -214,10 +204,10 @@ TEST(ProfileLight, NodesOfExtLightsIesAreLamps) {
     EXPECT_NEAR(scene.lights[1].intensity.y, 100, 0.01f);
     EXPECT_EQ(scene.lights[1].direction, vec3(0, 0, -1));
     g.doc["nodes"][2]["extensions"]["EXT_lights_ies"]["light"] = 7;
-    EXPECT_NE(test::error_of([&] { g.load(); }).find("there is no light profile 7"), std::string::npos);
+    EXPECT_NE(test::load_error_of([&] { g.load(); }).find("there is no light profile 7"), std::string::npos);
     g.doc["nodes"][2]["extensions"]["EXT_lights_ies"]["light"] = 0;
     g.doc["extensions"]["EXT_lights_ies"]["lights"] = {{{"uri", "../lamp.ies"}}};
-    EXPECT_NE(test::error_of([&] { g.load(); }).find("not inside the folder"), std::string::npos);
+    EXPECT_NE(test::load_error_of([&] { g.load(); }).find("not inside the folder"), std::string::npos);
 }
 
 TEST(ProfileLight, OfANodeThatMakesNoSenseIsRefusedByName) {
@@ -227,7 +217,7 @@ TEST(ProfileLight, OfANodeThatMakesNoSenseIsRefusedByName) {
         g.doc["extensions"]["EXT_lights_ies"]["lights"] = test::Json::array({profile});
         g.doc["nodes"].push_back({{"translation", {place, 0, 2}}, {"extensions", {{"EXT_lights_ies", reference}}}});
         g.doc["scenes"][0]["nodes"].push_back(2);
-        const std::string told = test::error_of([&] { g.load(); });
+        const std::string told = test::load_error_of([&] { g.load(); });
         EXPECT_NE(told.find(named), std::string::npos) << named << ": " << told;
     };
     const test::Json first = {{"light", 0}};
@@ -236,7 +226,7 @@ TEST(ProfileLight, OfANodeThatMakesNoSenseIsRefusedByName) {
     refused({{"uri", "data:text/plain,IESNA"}}, first, 0, "light profile 0: its data: address is not base64");
     refused({{"uri", "lost.ies"}}, first, 0, "lost.ies: cannot be opened");
     const std::string ies = "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 1 0 0 0\n1 1 30\n0 45 90\n0\n100 50 0\n";
-    const test::Json good = {{"uri", "data:text/plain;base64," + test::base64({ies.begin(), ies.end()})}};
+    const test::Json good = {{"uri", "data:text/plain;base64," + base64(std::vector<uint8_t>(ies.begin(), ies.end()))}};
     for (const double multiplier : {-1.0, 1e300})
         refused(good, {{"light", 0}, {"multiplier", multiplier}}, 0, "the multiplier of its light profile");
     refused(good, first, 1e30, "node 2: the position is too far away");
@@ -254,9 +244,10 @@ TEST(ProfileLight, ColourTemperatureTintsAWhiteLampWithoutChangingItsLight) {
 }
 
 TEST(ProfileLight, OnlyPointsAndSpotsTakeAFile) {
-    EXPECT_NE(error_of([] { lamp_with("none.ies"); }).find("none.ies: cannot be opened"), std::string::npos);
-    EXPECT_NE(error_of([] { with_photometry(test::square().load(), {"sun=x.ies"}); }).find("no lamp of this name"),
-              std::string::npos);
+    EXPECT_NE(test::error_of([] { lamp_with("none.ies"); }).find("none.ies: cannot be opened"), std::string::npos);
+    EXPECT_NE(
+        test::error_of([] { with_photometry(test::square().load(), {"sun=x.ies"}); }).find("no lamp of this name"),
+        std::string::npos);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace lw::test {
 namespace {
 
 std::string message(const GltfText& g) {
-    return error_of([&] { g.load(); });
+    return load_error_of([&] { g.load(); });
 }
 
 constexpr const char* white_png =  // 1 x 1, base64

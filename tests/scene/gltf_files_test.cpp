@@ -10,7 +10,7 @@ namespace lw::test {
 namespace {
 
 std::string message(const GltfText& g) {
-    return error_of([&] { g.load(); });
+    return load_error_of([&] { g.load(); });
 }
 
 std::string bytes_of(const std::filesystem::path& path) {
@@ -38,7 +38,7 @@ std::string square_glb(const Json& images = Json()) {
 TEST(GltfFiles, AnUnreadableImageOfAGlbIsNoReasonToRefuseIt) {
     const std::string glb = square_glb(Json::array({{{"uri", "data:image/png;base64,!!!!"}}}));
     Scene s;
-    EXPECT_EQ(error_of([&] { s = load_gltf(GltfText::write(glb, "room.glb")); }), "");
+    EXPECT_EQ(load_error_of([&] { s = load_gltf(GltfText::write(glb, "room.glb")); }), "");
     EXPECT_EQ(s.triangles.size(), 2u);
 }
 
@@ -51,7 +51,7 @@ TEST(GltfFiles, UrisStayInTheFolder) {
           "file://" + outside.string(), std::string("..\\lumenwalk_outside.bin"), std::string("c:a.bin")}) {
         Json doc = g.doc;
         doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", uri}}};
-        const std::string told = error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); });
+        const std::string told = load_error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); });
         EXPECT_NE(told.find("is not inside the folder of the file"), std::string::npos) << uri << ": " << told;
         GltfText profile = square();
         profile.doc["extensionsUsed"].push_back("EXT_lights_ies");
@@ -62,20 +62,20 @@ TEST(GltfFiles, UrisStayInTheFolder) {
     std::filesystem::remove(outside);
     Json doc = g.doc;
     doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "$(touch x).bin"}}};  // no shell is asked
-    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
+    EXPECT_NE(load_error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
     EXPECT_FALSE(std::filesystem::exists("x"));
 }
 
 TEST(GltfFiles, AFileThatCannotBeReadIsNamed) {
-    EXPECT_EQ(error_of([] { load_gltf("/nowhere/room.glb"); }), "/nowhere/room.glb: cannot be opened");
-    EXPECT_EQ(error_of([] { load_gltf("/"); }), "/: cannot be opened");
+    EXPECT_EQ(load_error_of([] { load_gltf("/nowhere/room.glb"); }), "/nowhere/room.glb: cannot be opened");
+    EXPECT_EQ(load_error_of([] { load_gltf("/"); }), "/: cannot be opened");
     const std::string shorter = "/sys/kernel/mm/transparent_hugepage/enabled";  // than the 4096 bytes it claims
     if (std::filesystem::exists(shorter)) {
-        EXPECT_EQ(error_of([&] { load_gltf(shorter); }), shorter + ": cannot be read");
+        EXPECT_EQ(load_error_of([&] { load_gltf(shorter); }), shorter + ": cannot be read");
     }
     const auto large = GltfText::write("glTF", "large.glb");
     std::filesystem::resize_file(large, uint64_t(1) << 32);  // sparse
-    EXPECT_NE(error_of([&] { load_gltf(large); }).find("larger than 4 GiB"), std::string::npos);
+    EXPECT_NE(load_error_of([&] { load_gltf(large); }).find("larger than 4 GiB"), std::string::npos);
     std::filesystem::remove(large);
 }
 
@@ -94,7 +94,7 @@ TEST(GltfFiles, ExternalBufferBesideTheFile) {
 
 TEST(GltfFiles, NotGltfAtAll) {
     const auto refused = [](const std::string& text, const char* named) {
-        const std::string told = error_of([&] { load_gltf(GltfText::write(text, "room.gltf")); });
+        const std::string told = load_error_of([&] { load_gltf(GltfText::write(text, "room.gltf")); });
         EXPECT_NE(told.find(named), std::string::npos) << text << ": " << told;
     };
     for (const char* text : {"", "{", "hello"}) refused(text, "room.gltf: not valid JSON");
@@ -102,14 +102,16 @@ TEST(GltfFiles, NotGltfAtAll) {
     refused(R"({"asset": {"version": "1.0"}})", "room.gltf: is glTF 1.0, not 2.0");
     const std::string deep =
         R"({"asset": {"version": "2.0"}, "extras": )" + std::string(100000, '[') + std::string(100000, ']') + "}";
-    EXPECT_EQ(error_of([&] { load_gltf(GltfText::write(deep, "room.gltf")); }), "room.gltf: JSON is nested too deeply");
+    EXPECT_EQ(load_error_of([&] { load_gltf(GltfText::write(deep, "room.gltf")); }),
+              "room.gltf: JSON is nested too deeply");
 }
 
 TEST(GltfFiles, ABinaryFileCutAnywhereIsRefused) {
     const std::string whole = square_glb();
     ASSERT_EQ(load_gltf(GltfText::write(whole, "room.glb")).triangles.size(), 2u);
     for (size_t length = 0; length < whole.size(); ++length) {
-        const std::string told = error_of([&] { load_gltf(GltfText::write(whole.substr(0, length), "room.glb")); });
+        const std::string told =
+            load_error_of([&] { load_gltf(GltfText::write(whole.substr(0, length), "room.glb")); });
         EXPECT_NE(told.find(length < 4 ? "not valid JSON" : "truncated: " + std::to_string(length)), std::string::npos)
             << length << ": " << told;
     }
@@ -120,7 +122,7 @@ TEST(GltfFiles, ABinaryFileCutWithItsLengthRewrittenNeverCrashes) {
     for (size_t length = 20; length < whole.size(); ++length) {
         std::string cut = whole.substr(0, length);
         for (size_t k = 0; k < 4; ++k) cut[8 + k] = char(length >> (8 * k) & 255);
-        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(cut, "room.glb")); }), "") << length;
+        EXPECT_NE(load_error_of([&] { load_gltf(GltfText::write(cut, "room.glb")); }), "") << length;
     }
 }
 
@@ -130,7 +132,7 @@ TEST(GltfFiles, AnyByteOfTheJsonChangedLoadsOrThrowsError) {
         for (const char byte : {'9', '-', '\xff'}) {
             std::string changed = whole;
             changed[at] = byte;
-            error_of([&] { load_gltf(GltfText::write(changed, "room.glb")); });
+            load_error_of([&] { load_gltf(GltfText::write(changed, "room.glb")); });
         }
 }
 
@@ -138,22 +140,22 @@ TEST(GltfFiles, TheApartmentCutAtManyLengths) {
     const std::string whole = bytes_of(LUMENWALK_SOURCE_DIR "/data/apartment.glb");
     ASSERT_GT(whole.size(), 1000u);
     for (size_t length : {size_t(3), size_t(19), size_t(21), size_t(5000), whole.size() / 2, whole.size() - 1})
-        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(whole.substr(0, length), "cut.glb")); }), "") << length;
+        EXPECT_NE(load_error_of([&] { load_gltf(GltfText::write(whole.substr(0, length), "cut.glb")); }), "") << length;
 }
 
 TEST(GltfFiles, MissingFilesAreNamed) {
     GltfText g = square();
     Json doc = g.doc;
     doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "lost.bin"}}};
-    const std::string lost = error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); });
+    const std::string lost = load_error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); });
     EXPECT_NE(lost.find("lost.bin"), std::string::npos) << lost;
     doc["buffers"] = {{{"byteLength", g.bytes.size()}}};
-    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
+    EXPECT_NE(load_error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
     doc.erase("buffers");
-    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
+    EXPECT_NE(load_error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
     GltfText::write(std::string(g.bytes.begin(), g.bytes.end() - 1), "short.bin");
     doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "short.bin"}}};
-    EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
+    EXPECT_NE(load_error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "");
     GltfText image = square();
     image.doc["images"] = {{{"uri", "lost.png"}}};
     image.doc["textures"] = {{{"source", 0}}};
@@ -170,7 +172,7 @@ TEST(GltfFiles, DataUrisCutAnywhereAreRefused) {
     for (size_t length = 1; length + 4 < whole.size(); ++length) {
         Json doc = g.doc;
         doc["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", whole.substr(0, length)}}};
-        EXPECT_NE(error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "") << length;
+        EXPECT_NE(load_error_of([&] { load_gltf(GltfText::write(doc.dump(), "room.gltf")); }), "") << length;
     }
 }
 
@@ -179,7 +181,7 @@ TEST(GltfFiles, ABinaryFileWithAWrongHeader) {
     const auto refused = [&](size_t at, const std::string& bytes, const char* named) {
         std::string changed = whole;
         changed.replace(at, bytes.size(), bytes);
-        const std::string told = error_of([&] { load_gltf(GltfText::write(changed, "room.glb")); });
+        const std::string told = load_error_of([&] { load_gltf(GltfText::write(changed, "room.glb")); });
         EXPECT_NE(told, "") << at;
         EXPECT_NE(told.find(named), std::string::npos) << at << ": " << told;
     };

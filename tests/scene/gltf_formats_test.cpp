@@ -13,7 +13,7 @@ const std::vector<float> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
 const std::vector<uint16_t> indices{0, 1, 2, 2, 1, 3};
 
 std::string refusal(const GltfText& g) {
-    return error_of([&] { g.load(); });
+    return load_error_of([&] { g.load(); });
 }
 
 bool warns(const Scene& scene, const std::string& words) {
@@ -23,10 +23,7 @@ bool warns(const Scene& scene, const std::string& words) {
 
 double area_of(const Scene& scene) {
     double area = 0;
-    for (const uvec3& t : scene.triangles) {
-        const vec3 a = scene.positions[t.x];
-        area += 0.5 * double(length(cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
-    }
+    for (size_t t = 0; t < scene.triangles.size(); ++t) area += triangle_area(scene, t);
     return area;
 }
 

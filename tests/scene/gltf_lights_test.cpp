@@ -105,7 +105,7 @@ TEST(GltfCameras, OneThatIsMadeUpSeesAFlatScene) {
         g.floats("POSITION", corners, "VEC3");
         const Scene s = g.load();
         const Camera& camera = s.cameras.at(0);
-        const vec3 normal = cross(s.positions[1] - s.positions[0], s.positions[2] - s.positions[0]);
+        const vec3 normal = edge_product(s.positions[0], s.positions[1], s.positions[2]);
         EXPECT_GT(std::abs(dot(normalize(normal), normalize(camera.position))), 0.5f) << "seen edge-on";
         for (vec3 corner : s.positions) {
             const vec3 seen = transpose(camera.rotation) * (corner - camera.position);

@@ -93,7 +93,7 @@ TEST(GltfMaterials, AbsorptionGivesTheAttenuationColourAtItsDistance) {
 }
 
 TEST(GltfMaterials, AVolumeThatMakesNoSenseIsRefused) {
-    const auto refusal = [](const Json& volume) { return error_of([&] { glass(volume).load(); }); };
+    const auto refusal = [](const Json& volume) { return load_error_of([&] { glass(volume).load(); }); };
     EXPECT_NE(refusal({{"thicknessFactor", 1}, {"attenuationDistance", 0}}).find("attenuationDistance"),
               std::string::npos);
     EXPECT_NE(refusal({{"thicknessFactor", -1}}).find("thicknessFactor"), std::string::npos);
@@ -135,7 +135,7 @@ TEST(GltfTextures, AnImageThatCannotBeDecodedLeavesItsFactor) {
                                   "data:image/png;base64,!!!!####", "data:image/png;base64,", "data:"}) {
         std::string error;
         Scene s;
-        error = error_of([&] { s = textured(uri).load(); });
+        error = load_error_of([&] { s = textured(uri).load(); });
         ASSERT_EQ(error, "") << uri;
         EXPECT_EQ(s.materials[0].base_color_texture.texture, -1) << uri;
         ASSERT_EQ(s.warnings.size(), 1u) << uri;
@@ -150,7 +150,7 @@ TEST(GltfTextures, AnImageWithoutAUsableSourceLeavesItsFactor) {
         GltfText g = textured(png_uri);
         g.doc["images"] = Json::array({Json::parse(image)});
         Scene s;
-        ASSERT_EQ(error_of([&] { s = g.load(); }), "") << image;
+        ASSERT_EQ(load_error_of([&] { s = g.load(); }), "") << image;
         EXPECT_EQ(s.materials[0].base_color_texture.texture, -1) << image;
         ASSERT_EQ(s.warnings.size(), 1u) << image;
         EXPECT_NE(s.warnings[0].find("picture"), std::string::npos) << s.warnings[0];
@@ -160,10 +160,11 @@ TEST(GltfTextures, AnImageWithoutAUsableSourceLeavesItsFactor) {
 /// What an image says of its size is enough: nothing is decoded.
 TEST(GltfTextures, AnImageOfMoreTexelsThanCanBeCountedIsRefused) {
     const std::string header = "P5 100000 100000 255\n";  // a PGM
-    const std::string uri = "data:image/png;base64," + base64({header.begin(), header.end()});
-    EXPECT_NE(
-        error_of([&] { textured(uri).load(); }).find("image 0 \"picture\": the textures have more than 2^32 texels"),
-        std::string::npos);
+    const std::string uri = "data:image/png;base64," + base64(std::vector<uint8_t>(header.begin(), header.end()));
+    EXPECT_NE(load_error_of([&] {
+                  textured(uri).load();
+              }).find("image 0 \"picture\": the textures have more than 2^32 texels"),
+              std::string::npos);
 }
 
 TEST(GltfTextures, BilinearSamplesMeetAtTexelCentres) {

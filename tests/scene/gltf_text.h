@@ -12,23 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "base/base64.h"
+#include "base/error_of.h"
 #include "scene/gltf.h"
+#include "scene/triangle.h"
 
 namespace lw::test {
 
 using Json = nlohmann::json;
-
-inline std::string base64(const std::vector<unsigned char>& bytes) {
-    static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-        for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? letters[bits >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
 
 /// A glTF document with one node, one mesh, one primitive and a lamp of 100 cd at (0, 0, 1); tests change `doc`.
 struct GltfText {
@@ -100,22 +91,16 @@ inline bool is_one_line_of_a_file(const std::string& message) {
            message.find(": ") > 0;
 }
 
-/// The message of the Error that loading throws, one line; empty when it loads.
+/// The message of the Error that loading throws, which must be one line of a file; "" when it loads.
 template <class Load>
-std::string error_of(const Load& load) {
-    try {
-        load();
-        return {};
-    } catch (const Error& e) {
-        EXPECT_TRUE(is_one_line_of_a_file(e.what())) << e.what();
-        return e.what();
-    }
+std::string load_error_of(const Load& load) {
+    const std::string message = error_of(load);
+    EXPECT_TRUE(message.empty() || is_one_line_of_a_file(message)) << message;
+    return message;
 }
 
-inline vec3 front_of(const Scene& s, size_t triangle) {
-    const uvec3 t = s.triangles[triangle];
-    return normalize(cross(s.positions[t.y] - s.positions[t.x], s.positions[t.z] - s.positions[t.x]));
-}
+/// The unit normal of the front of a triangle.
+inline vec3 front_of(const Scene& s, size_t triangle) { return normalize(triangle_product(s, triangle)); }
 
 inline glm::dvec3 world(const Scene& s, size_t vertex) { return s.origin + glm::dvec3(s.positions[vertex]); }
 
