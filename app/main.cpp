@@ -24,10 +24,13 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--photons", o.walk.photons, "photons of a map that must be baked")
         ->check(CLI::Range(uint64_t(1000), uint64_t(2'000'000'000)))
         ->capture_default_str();
-    app.add_option("--camera", o.walk.camera, "camera to start at; default: the first");
-    app.add_option("--ambiance", o.walk.ambiance, "powers of this name in SCENE.ambiances.json to start with");
-    app.add_option("--ies", o.walk.photometry,
-                   "LAMP=FILE, an IES LM-63 or EULUMDAT file on a point or spot lamp; may be repeated")
+    app.add_option("--camera", o.walk.camera, "name of the camera to start at; default: the first");
+    app.add_option("--ambiance", o.walk.ambiance,
+                   "name of a set of lamp factors in SCENE.ambiances.json to start with; default: all lamps at 1");
+    app.add_option(
+           "--ies", o.walk.photometry,
+           "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; may be "
+           "repeated; default: none")
         ->allow_extra_args(false);
     app.add_option("--size", o.size, "pixels of the window as WxH; default: 1280x720, of --play 960x540");
     app.add_option("-o,--output", o.output,
@@ -36,16 +39,21 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--device-memory", o.device_memory_gb,
                    "GB of the device that scene and photons may take; default: what it has to give");
     app.add_option("--rays", o.rays, lw::rays_help)->check(CLI::IsMember(lw::rays_names))->capture_default_str();
-    app.add_option("--play", o.play.path, "replay this recorded walk without a window and end");
-    app.add_option("--frames", o.play.frames, "with --play: folder for a PNG of every frame");
-    app.add_option("--timings", o.play.timings, "with --play: CSV of the milliseconds of every frame and pass");
+    app.add_option("--play", o.play.path, "recorded walk (.json) to replay without a window; default: a window");
+    app.add_option("--frames", o.play.frames,
+                   "with --play: folder for a PNG of every frame; default: none are written");
+    app.add_option("--timings", o.play.timings,
+                   "with --play: CSV file to write, milliseconds of every frame and pass; default: none");
     app.add_option("--gather", o.gather, "with --play: " + lw::gather_mode_help())
         ->check(CLI::IsMember(lw::gather_mode_names()))
         ->capture_default_str();
-    app.add_option("--neighbours", o.play.gather.neighbours, "with --play: photons per estimate")
+    app.add_option(
+           "--neighbours", o.play.gather.neighbours,
+           "with --play: photons that the light at a point is estimated from, where it is estimated from photons")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    app.add_option("--shadow-rays", o.play.gather.shadow_rays, "with --play: shadow rays per pixel and emissive mesh")
+    app.add_option("--shadow-rays", o.play.gather.shadow_rays,
+                   "with --play: shadow rays per pixel and glowing object; 0: none at all")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     app.add_option("--samples", o.play.samples, "with --play: views averaged per pixel")
@@ -57,7 +65,7 @@ void add_options(CLI::App& app, Options& o) {
         ->check(CLI::Range(0, 4))
         ->capture_default_str();
     app.add_option("--exposure", o.play.exposure_ev, "with --play: EV100; default: follows the picture");
-    app.add_flag("!--no-vsync", o.walk.vsync, "do not wait for the display");
+    app.add_flag("!--no-vsync", o.walk.vsync, "do not wait for the display between frames; default: wait");
     app.add_flag("--validation", o.walk.device.validation,
                  "run with the Vulkan validation layer; any message is an error");
 }

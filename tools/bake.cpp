@@ -17,9 +17,9 @@
 #include "maps/bake.h"
 #include "maps/bake_memory.h"
 #include "maps/build.h"
-#include "number_option.h"
 #include "photons/shoot.h"
 #include "scene/load_scene.h"
+#include "shared_options.h"
 
 namespace {
 
@@ -126,36 +126,32 @@ int main(int argc, char** argv) {
     Options options;
     CLI::App app{"Traces the photons of a glTF building and writes its photon map (unit power per lamp)."};
     app.add_option("scene", options.scene, "glTF 2.0 file, .gltf or .glb")->required();
-    app.add_option("-o,--output", options.output, "photon map to write (default: beside the scene, .pmap)");
+    app.add_option("-o,--output", options.output, "photon map to write; default: SCENE.pmap beside the scene");
     app.add_option("--photons", options.photons, "photons to store")
         ->capture_default_str()
         ->check(CLI::Range(uint64_t(1), uint64_t(2'000'000'000)));
-    app.add_option("--radius", options.radius, "largest search radius in metres, or auto")
+    app.add_option("--radius", options.radius,
+                   "metres, the largest distance from which photons count at a point, or auto: what the scene and "
+                   "--photons need")
         ->capture_default_str()
         ->check(misuse_of_radius);
     app.add_option("--neighbour-angle", options.neighbour_angle_deg,
-                   "largest angle in degrees between the normals of a photon and a patch")
+                   "degrees, the largest angle between the surface of a photon and one that the photon counts on")
         ->capture_default_str()
         ->check(lw::finite_number(0, 89));
-    app.add_option("--direct", options.direct,
-                   "direct light of point, spot and directional lamps: exact (shadow rays at render time) or photons "
-                   "(the paper)")
+    app.add_option(
+           "--direct", options.direct,
+           "direct light of lamps. exact: by formulas and shadow rays when a picture is drawn, with true shadows; "
+           "photons: kept as photons like reflected light, as Graglia, Sequeira and Mavromatis (2012) do, with "
+           "blurred shadows and no rays")
         ->capture_default_str()
         ->check(CLI::IsMember({"exact", "photons"}));
-    app.add_option("--seed", options.seed, "seed of the random numbers")
-        ->check(lw::whole_number())
-        ->capture_default_str();
-    app.add_option("--ies", options.photometry,
-                   "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
-                   "the same for bake and all "
-                   "programs that read the map; may be repeated")
-        ->allow_extra_args(false);
-    app.add_option("--threads", options.threads, "worker threads (0: all cores)")
-        ->capture_default_str()
-        ->check(CLI::Range(0u, 4096u));
+    lw::add_seed(app, options.seed);
+    lw::add_photometry(app, options.photometry);
+    lw::add_threads(app, options.threads);
     app.add_option(
            "--memory", options.memory_gb,
-           "gigabytes the bake may take; more is refused at the start (default: what the machine has available)")
+           "GB of memory the bake may take, more is refused at the start; default: what the machine has available")
         ->check(lw::finite_number(1e-3, 1e6));
     try {
         app.parse(argc, argv);

@@ -21,10 +21,10 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("A", options.picture, "OpenEXR picture to judge")->required();
     app.add_option("B", options.reference, "OpenEXR reference of the same size")->required();
     app.add_option("--difference", options.difference,
-                   "PNG to write: red where A is too bright, blue where too dark, full colour at 20 %");
+                   "PNG to write: red where A is too bright, blue where too dark, full colour at 20 %; default: none");
     app.add_option("--channel", options.channel,
-                   "Compare this channel, e.g. illuminance (lux), instead of R, G, B (cd/m2)");
-    app.add_flag("--json", options.json, "Print one JSON object");
+                   "channel to compare, such as illuminance (lux); default: R, G and B (cd/m2)");
+    app.add_flag("--json", options.json, "print one JSON object; default: a line per number");
 }
 
 /// One list of names and numbers, for both ways to print.

@@ -12,11 +12,11 @@
 #include "image/exr.h"
 #include "image/light_check.h"
 #include "image/picture_size.h"
-#include "number_option.h"
 #include "scene/ambiance.h"
 #include "scene/camera.h"
 #include "scene/lamp_factors.h"
 #include "scene/load_scene.h"
+#include "shared_options.h"
 #include "trace/reference.h"
 
 namespace {
@@ -71,42 +71,33 @@ int main(int argc, char** argv) {
         "Renders a glTF building by unbiased path tracing on the CPU: radiance in cd/m2, illuminance in lux, standard "
         "errors."};
     app.add_option("scene", options.scene, "glTF 2.0 file, .gltf or .glb")->required();
-    app.add_option("-o,--output", options.output, "EXR picture to write")->required();
-    app.add_option("--camera", options.camera, "camera by name (default: the first)");
-    app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app.add_option("-o,--output", options.output, "EXR picture to write (cd/m2, lux)")->required();
+    app.add_option("--camera", options.camera, "name of a camera of the scene; default: the first");
+    app.add_option("--size", options.size, "pixels as WxH")->capture_default_str();
     app.add_option("--samples", options.settings.samples,
-                   "paths per pixel (default 256, without limit when --time or --error is given)")
+                   "paths per pixel; default: 256, without limit when --time or --error is given")
         ->check(CLI::Range(1, 1 << 30));
-    app.add_option("--time", options.settings.seconds, "stop after this many seconds")
+    app.add_option("--time", options.settings.seconds, "stop after this many seconds; default: no limit")
         ->check(lw::finite_number(1e-3, 1e9));
     app.add_option("--error", options.settings.error,
-                   "stop at this relative standard error of the picture, such as 0.01")
+                   "stop at this standard error as a part of the mean of the picture, such as 0.01; default: no limit")
         ->check(lw::finite_number(1e-6, 1e3));
-    app.add_option("--power", options.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
-        ->allow_extra_args(false);
+    lw::add_power(app, options.powers);
     app.add_flag("!--no-illuminance", options.settings.illuminance,
-                 "leave out the illuminance channel (half the time)");
+                 "leave out the illuminance channel, which takes half the time; default: it is written");
     app.add_option("--caustic-paths", options.settings.caustic_paths,
-                   "paths from the lamps per sample, for light of lamps by way of mirrors and glass (0: none)")
+                   "paths from the lamps per sample, for light of lamps by way of mirrors and glass; 0: none")
         ->capture_default_str()
         ->check(CLI::Range(uint64_t(0), uint64_t(1) << 32));
     app.add_option("--caustic-radius", options.settings.caustic_radius,
-                   "metres over which the first sample blurs such light, later ones less (0: 0.4 % of the scene)")
+                   "metres over which the first sample blurs such light, later ones less; 0: 0.4 % of the diagonal of "
+                   "the scene")
         ->capture_default_str()
         ->check(lw::finite_number(0, 1e6));
-    app.add_option("--ambiance", options.ambiance,
-                   "powers of this name in SCENE.ambiances.json; --power multiplies them");
-    app.add_option("--seed", options.settings.seed, "seed of the random numbers")
-        ->check(lw::whole_number())
-        ->capture_default_str();
-    app.add_option("--ies", options.photometry,
-                   "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
-                   "the same for bake and all "
-                   "programs that read the map; may be repeated")
-        ->allow_extra_args(false);
-    app.add_option("--threads", options.threads, "worker threads (0: all cores)")
-        ->capture_default_str()
-        ->check(CLI::Range(0u, 4096u));
+    lw::add_ambiance(app, options.ambiance);
+    lw::add_seed(app, options.settings.seed);
+    lw::add_photometry(app, options.photometry);
+    lw::add_threads(app, options.threads);
     try {
         app.parse(argc, argv);
         const std::string misuse = misuse_of(options);

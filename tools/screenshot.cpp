@@ -14,11 +14,11 @@
 #include "image/light_check.h"
 #include "image/picture_size.h"
 #include "image/png.h"
-#include "number_option.h"
 #include "scene/ambiance.h"
 #include "scene/camera.h"
 #include "scene/lamp_factors.h"
 #include "scene/load_scene.h"
+#include "shared_options.h"
 #include "trace/build_bvh.h"
 
 namespace {
@@ -38,25 +38,23 @@ struct Options {
 void add_options(CLI::App& app, Options& o) {
     app.add_option("scene", o.scene, "glTF 2.0 scene, .glb or .gltf");
     app.add_option("map", o.map, "photon map of lumenwalk-bake; default: SCENE.pmap beside the scene");
-    app.add_option("-o,--output", o.output, "picture: .exr (cd/m2, lux, m) or .png (exposed, 8 bits)");
+    app.add_option("-o,--output", o.output,
+                   "picture to write, required: .exr (cd/m2, lux, m) or .png (exposed, 8 bits)");
     app.add_option("--camera", o.camera, "name of a camera of the scene; default: the first");
     app.add_option("--size", o.size, "pixels as WxH; default: 1280 wide with the aspect of the camera");
-    app.add_option("--ies", o.photometry,
-                   "LAMP=FILE, gives a point or spot lamp the distribution of an IES LM-63 or EULUMDAT (.ldt) file; "
-                   "the same for bake and all "
-                   "programs that read the map; may be repeated")
-        ->allow_extra_args(false);
-    app.add_option("--power", o.powers, "LIGHT=FACTOR, dims (< 1) or brightens a lamp; may be repeated")
-        ->allow_extra_args(false);
-    app.add_option("--ambiance", o.ambiance, "powers of this name in SCENE.ambiances.json; --power multiplies them");
-    app.add_option("--neighbours", o.neighbours, "photons per estimate")
+    lw::add_photometry(app, o.photometry);
+    lw::add_power(app, o.powers);
+    lw::add_ambiance(app, o.ambiance);
+    app.add_option("--neighbours", o.neighbours,
+                   "photons that the light at a point is estimated from, where it is estimated from photons")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
     app.add_option("--gather", o.gather, lw::gather_mode_help())
         ->check(CLI::IsMember(lw::gather_mode_names()))
         ->capture_default_str();
-    app.add_option("--shadow-rays", o.shadow_rays,
-                   "shadow rays per pixel and emissive mesh; 0: none at all, shadows as sharp as the bake's lattice")
+    app.add_option(
+           "--shadow-rays", o.shadow_rays,
+           "shadow rays per pixel and glowing object; 0: none at all, shadows as sharp as the lattice of the bake")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     app.add_option("--paths", o.paths,
@@ -64,10 +62,11 @@ void add_options(CLI::App& app, Options& o) {
         ->check(CLI::Range(1u, lw::max_paths))
         ->capture_default_str();
     app.add_option("--followed-roughness", o.followed_roughness,
-                   "rays follow what surfaces smoother than this reflect; photons show it of the others")
+                   "glTF roughness, 0 to 1: rays bring what smoother surfaces reflect, photons what others do")
         ->check(lw::finite_number(0, 1))
         ->capture_default_str();
-    app.add_option("--exposure", o.exposure, "EV100; default: from the picture")->check(lw::finite_number(-100, 100));
+    app.add_option("--exposure", o.exposure, "EV100, the exposure of a .png; default: from the picture")
+        ->check(lw::finite_number(-100, 100));
     app.add_option("--samples", o.samples, "views averaged per pixel")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
@@ -75,7 +74,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--device-memory", o.device_memory_gb,
                    "GB of the device that scene and photons may take; default: what it has to give")
         ->check(lw::finite_number(0.001, 1e6));
-    app.add_option("--frames", o.frames, "frames to time, the median is told")
+    app.add_option("--frames", o.frames, "frames to draw for the time that is printed, their median")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
     app.add_option("--rays", o.rays, lw::rays_help)->check(CLI::IsMember(lw::rays_names))->capture_default_str();

@@ -63,7 +63,7 @@ TEST_P(EachProgram, HelpNamesUnitsAndDefaults) {
     const std::map<std::string, Words> promised = {
         {"bake", {"metres", "degrees", "1000000", "beside the scene", "60", "--seed", "--threads"}},
         {"screenshot", {"cd/m2", "lux", "EV100", "300", "smooth", "beside the scene", "LIGHT=FACTOR"}},
-        {"reference", {"cd/m2", "lux", "seconds", "960x540", "default 256", "LIGHT=FACTOR"}},
+        {"reference", {"cd/m2", "lux", "seconds", "960x540", "default: 256", "LIGHT=FACTOR"}},
         {"compare", {"cd/m2", "lux", "20 %", "--json"}}};
     const Outcome outcome = run(GetParam(), {"--help"});
     EXPECT_EQ(outcome.exit_code, 0);

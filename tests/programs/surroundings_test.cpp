@@ -222,8 +222,7 @@ TEST(CommandLines, WithNumbersThatAreNoneAreRefusedWith2) {
     const std::string points = "/nowhere/points.csv";
     const std::vector<std::pair<std::string, Words>> options = {
         {"measure",
-         {"--maintenance", "--error", "--reflections-step", "--least-luminance", "--least-ratio",
-          "--least-solid-angle"}},
+         {"--maintenance", "--error", "--reflections-step", "--min-luminance", "--min-ratio", "--min-solid-angle"}},
         {"reference", {"--caustic-radius", "--time", "--error"}},
         {"screenshot", {"--followed-roughness", "--exposure", "--device-memory"}},
         {"bake", {"--neighbour-angle", "--radius", "--memory"}},

@@ -11,6 +11,7 @@
 #include "base/program.h"
 #include "document.h"
 #include "sections.h"
+#include "tools/shared_options.h"
 
 namespace {
 
@@ -59,9 +60,7 @@ void add_options(CLI::App& app, Options& o) {
                    "Markdown file that takes the tables of each section between its lines <!-- benchmark SECTION --> "
                    "and <!-- end of benchmark -->; docs/accuracy.md has them all");
     app.add_option("--scenes", o.scenes, "folder of cornell.gltf and apartment.glb")->capture_default_str();
-    app.add_option("--threads", o.threads, "worker threads (0: all cores)")
-        ->capture_default_str()
-        ->check(CLI::Range(0u, 4096u));
+    lw::add_threads(app, o.threads);
     app.footer(list_of_sections());
 }
 
