@@ -19,13 +19,13 @@ LW_BINDING(scene, materials, texels, 1, all_stages)     // RGBA32, material_texe
 LW_BINDING(scene, textures, texels, 1, all_stages)      // RGBA32, texture_texels for each Texture
 LW_BINDING(scene, grids, texels, 1, compute)            // RGBA32, SurfaceGrid
 LW_BINDING(scene, cuts, texels, 1, compute)             // RGBA32, Cut
-LW_BINDING(scene, cell_starts, texels, 1, compute)      // R32, first photon of each cell
+LW_BINDING(scene, cell_starts, texels, 1, compute)      // R32, first photon of each grid cell
 LW_BINDING(scene, places, texels, max_chunks, compute)  // RG32, PhotonPlace
 LW_BINDING(scene, fluxes, texels, max_chunks, compute)  // R32, RGB9E5 of each photon
 LW_BINDING(scene, directions, texels, max_chunks, compute)  // R16, octahedral, of each photon
 LW_BINDING(scene, coverage, texels, 1, compute)             // R32 per node of the lattice
-LW_BINDING(scene, cell_light, texels, 1, compute)           // RGBA32 per cell
-LW_BINDING(scene, cell_words, texels, 1, compute)           // R32
+LW_BINDING(scene, lattice_light, texels, 1, compute)           // RGBA32 per lattice cell
+LW_BINDING(scene, lattice_rows, texels, 1, compute)           // R32, row after row: LatticeLight::rows()
 LW_BINDING(scene, shadow_masks, texels, 1, compute)         // RGBA32
 LW_BINDING(scene, caustic_grids, texels, 1, compute)        // RG32 per triangle: grid or cut of the front, of the back
 LW_BINDING(scene, lamp_powers, texels, 1, compute)          // RGBA32F, LampPower
@@ -61,12 +61,12 @@ LW_BINDING(view, view_readback, storage, 1, compute)  // ReadbackPixel
 // The sum over lamps at the lattice, set 0 of its two passes (lamp_sum.h, gather/lamp_sum).
 LW_BINDING(lamp_sum, irradiance_marks, texels, 1, compute)     // RG32: marks and starts of PhotonMap::irradiance
 LW_BINDING(lamp_sum, irradiance_values, texels, 1, compute)    // R32, RGB9E5
-LW_BINDING(lamp_sum, direct_marks, texels, 1, compute)         // RG32: marks and starts of CellLight::direct()
+LW_BINDING(lamp_sum, direct_marks, texels, 1, compute)         // RG32: marks and starts of LatticeLight::direct()
 LW_BINDING(lamp_sum, direct_values, texels, 1, compute)        // R32, bits of a float
-LW_BINDING(lamp_sum, lattice_columns, texels, 1, compute)      // R32 per node: columns, 0 where no cell begins
-LW_BINDING(lamp_sum, sum_cell_words, texels, 1, compute)       // R32, as cell_words
+LW_BINDING(lamp_sum, lattice_columns, texels, 1, compute)      // R32 per node: columns, 0 where no lattice cell begins
+LW_BINDING(lamp_sum, sum_lattice_rows, texels, 1, compute)       // R32, as lattice_rows
 LW_BINDING(lamp_sum, lamp_terms, storage, 1, compute)          // LampTerm
 LW_BINDING(lamp_sum, node_sums, storage_window, 1, compute)    // vec4 per node: RGB
 LW_BINDING(lamp_sum, node_sum_texels, texels, 1, compute)      // the same as RGBA32F texels
-LW_BINDING(lamp_sum, cell_direct, storage_window, 1, compute)  // vec3, four per cell
-LW_BINDING(lamp_sum, cell_sums, storage_window, 1, compute)    // uvec4 per cell, as cell_light
+LW_BINDING(lamp_sum, cell_direct, storage_window, 1, compute)  // vec3, four per lattice cell
+LW_BINDING(lamp_sum, cell_sums, storage_window, 1, compute)    // uvec4 per lattice cell, as lattice_light

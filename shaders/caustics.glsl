@@ -1,13 +1,13 @@
-// Light that lamps send by mirrors and smooth glass alone, from grids of its own: gathered at
-// each point with a small bandwidth, so that it stays sharp; the cached mode finds smooth caustics in the light of its
-// cells. One text for C++ and GLSL; needs gather.glsl, the functions caustic_grid_of, cell_word and the constants
-// has_caustics, has_smooth_caustics, has_visible_lamps, light_count.
+// Caustics: light that lamps send by mirrors and smooth glass alone, whose photons lie in grids of their own. They are
+// gathered at each point with a small bandwidth, so that they stay sharp; in the cached mode the light of the lattice
+// cells holds smooth caustics already. One text for C++ and GLSL; needs gather.glsl, the functions caustic_grid_of,
+// lattice_row_entry and the constants has_caustics, has_smooth_caustics, has_visible_lamps, light_count.
 
-/// The part of the caustics at a place that the light of its cell does not hold.
+/// The part of the caustics at a place, 0 to 1, that the light of its lattice cell does not hold.
 float caustics_left(GridPlace at) LW_MEMBER {
     if (!has_smooth_caustics || !has_visible_lamps || gather_mode != gather_mode_cached || at.index == no_grid)
         return 1.0f;
-    return 1.0f - corners_set(cell_word(at.cell * cell_words(light_count, true)), at.f);
+    return 1.0f - corners_set(lattice_row_entry(at.cell * lattice_row_length(light_count, true)), at.f);
 }
 
 /// Adds the part `left` of the caustic light at a surface of `triangle` whose other light comes from the place `at`.

@@ -1,6 +1,6 @@
 // Photon density estimation on the 2D grid of one patch (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
 // Real-Time Walkthrough Rendering, 2012). One text for C++ and GLSL. The including scope provides the functions
-// photon_place, photon_flux, photon_direction, lamp_power, light_at, cell_light and the constants has_caustics,
+// photon_place, photon_flux, photon_direction, lamp_power, light_at, lattice_light and the constants has_caustics,
 // gather_mode, neighbours, heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions,
 // has_coverage, has_followed. Needs map_lookup.glsl and bsdf.glsl.
 
@@ -58,7 +58,7 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
     uint k = min(neighbours, heap_size);
     uint count = 0u;
     float bound = grid.radius * grid.radius;
-    ivec2 cell = cell_of(local, grid);
+    ivec2 cell = grid_cell_of(local, grid);
     for (int ring = first_ring(grid, cell);; ++ring) {
         for (int y = cell.y - ring; y <= cell.y + ring; ++y) {
             bool whole_row = y == cell.y - ring || y == cell.y + ring;
@@ -150,7 +150,7 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
 /// The irradiance computed ahead at the corners of the cell, all lamps at their present power; light from all sides
 /// alike for the BRDF.
 Gathered gather_cached(GridPlace at, Surface s, vec3 n_shading, vec3 to_view) LW_MEMBER {
-    uvec4 corners = cell_light(at.cell);
+    uvec4 corners = lattice_light(at.cell);
     vec3 low = mix(unpack_rgb9e5(corners.x), unpack_rgb9e5(corners.y), at.f.x);
     vec3 high = mix(unpack_rgb9e5(corners.z), unpack_rgb9e5(corners.w), at.f.x);
     Gathered sum;

@@ -2,7 +2,8 @@
 // 2.1-2.2). One text for C++ and GLSL. The including scope provides the function cell_start and the constant
 // neighbours; needs photon_map.h.
 
-ivec2 cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
+/// The grid cell of a point, column and row; it may lie beyond the grid. `local`: in the frame of the grid, m.
+ivec2 grid_cell_of(vec3 local, SurfaceGrid grid) LW_MEMBER {
     return ivec2(int(floor(local.x / grid.cell_size)), int(floor(local.y / grid.cell_size)));
 }
 
@@ -26,8 +27,9 @@ int first_ring(SurfaceGrid grid, ivec2 cell) LW_MEMBER {
     return max(max(beyond.x, beyond.y), 0);
 }
 
-/// The node below and left of a point, and in `f` where the point lies in the cell it begins.
-uint cell_node(SurfaceLattice lattice, vec3 local, LW_INOUT(vec2) f) LW_MEMBER {
+/// The lattice cell of a point, by the number of its lower left node, and in `f` the place in the cell, 0 to 1 along u
+/// and v. `local`: the point in the frame of the grid, m; one beyond the lattice is moved to its border.
+uint lattice_cell_of(SurfaceLattice lattice, vec3 local, LW_INOUT(vec2) f) LW_MEMBER {
     vec2 last = vec2(float(lattice.columns - 1u), float(lattice.rows - 1u));
     vec2 at = clamp((vec2(local.x, local.y) - lattice.low) / lattice.step, vec2(0.0f), last);
     vec2 base = min(floor(at), last - 1.0f);
@@ -37,7 +39,7 @@ uint cell_node(SurfaceLattice lattice, vec3 local, LW_INOUT(vec2) f) LW_MEMBER {
 
 /// Radius that is expected to hold k photons, from the counts of a growing window of cells.
 float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
-    ivec2 cell = cell_of(local, grid);
+    ivec2 cell = grid_cell_of(local, grid);
     float wanted = 1.25f * float(neighbours);
     int last_ring = int(grid.radius / grid.cell_size) + 1;
     float count = 0.0f;
@@ -64,7 +66,7 @@ float bandwidth_from_counts(SurfaceGrid grid, vec3 local) LW_MEMBER {
 /// Radius that holds caustic_neighbours photons, from the counts of a growing window of cells. Few photons make small
 /// grids of small cells: the window starts where it meets the grid and grows in proportion.
 float caustic_radius(SurfaceGrid grid, vec3 local) LW_MEMBER {
-    ivec2 cell = cell_of(local, grid);
+    ivec2 cell = grid_cell_of(local, grid);
     ivec2 last = ivec2(int(grid.columns) - 1, int(grid.rows) - 1);
     int ring = first_ring(grid, cell);
     int last_ring = int(grid.radius / grid.cell_size) + 1;

@@ -15,8 +15,8 @@ struct Inspected {
 float photon_nearby(SurfaceGrid grid, vec3 local, float reach) LW_MEMBER {
     float nearest = reach * reach;
     float lamp = 0.0f;
-    ivec2 low = cell_of(local - vec3(reach, reach, 0.0f), grid);
-    ivec2 high = cell_of(local + vec3(reach, reach, 0.0f), grid);
+    ivec2 low = grid_cell_of(local - vec3(reach, reach, 0.0f), grid);
+    ivec2 high = grid_cell_of(local + vec3(reach, reach, 0.0f), grid);
     for (int y = low.y; y <= high.y; ++y) {
         uvec2 span = row_span(grid, low.x, high.x, y);
         for (uint i = span.x; i < span.y; ++i) {
@@ -43,8 +43,8 @@ Inspected inspect(Seen seen, float dot_reach, uint seed) LW_MEMBER {
     vec3 weights = luminance_weights * (kernel_peak(r2) * inverse_flux_scale);
     float sum = 0.0f;
     float squares = 0.0f;
-    ivec2 low = cell_of(local - vec3(radius, radius, 0.0f), grid);
-    ivec2 high = cell_of(local + vec3(radius, radius, 0.0f), grid);
+    ivec2 low = grid_cell_of(local - vec3(radius, radius, 0.0f), grid);
+    ivec2 high = grid_cell_of(local + vec3(radius, radius, 0.0f), grid);
     for (int y = low.y; y <= high.y; ++y) {
         uvec2 span = row_span(grid, low.x, high.x, y);
         for (uint i = span.x; i < span.y; ++i) {

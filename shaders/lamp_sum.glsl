@@ -6,7 +6,7 @@ layout(local_size_x = lamp_sum_group) in;
 layout(push_constant, scalar) uniform Push { LampSumPush push; };
 layout(set = 0, binding = binding_lamp_terms, scalar) readonly buffer Terms { LampTerm terms[]; };
 
-/// Where the value of word `i` of a sparse array lies, given its mark and start (maps/sparse_array.h); no_place for a
+/// Where entry `i` of a sparse array lies, given its mark and start (maps/sparse_array.h); no_place for a
 /// zero.
 uint sparse_place(uvec2 mark_and_start, uint i) {
     uint bit = 1u << (i % 32u);

@@ -7,7 +7,7 @@
 namespace lw {
 #endif
 
-LW_CONST uint no_place = 0xffffffffu;  // of a lamp whose own light no cell holds, of a word that is zero
+LW_CONST uint no_place = 0xffffffffu;  // of a lamp whose own light no cell holds, of an entry that is zero
 
 /// What a lamp adds to the sums; of a lamp that changed, what its change adds.
 struct LampTerm {
@@ -17,18 +17,17 @@ struct LampTerm {
     uint punctual;  // its place among the lamps whose own light cells may hold, or no_place
 };
 
-/// Push constants of both passes. Nodes, and the cells above and right of them, are numbered alike.
+/// Push constants of both passes. A lattice cell has the number of its lower left node.
 struct LampSumPush {
     uint first;  // node of the first invocation
     uint end;    // node after the last one
     uint nodes;  // of the lattices of all maps
-    uint lamps;  // of the scene
     uint terms;
-    uint adds;             // 1: to the sums as they are, 0: from nothing
-    uint keeps_direct;     // 1: the own light of lamps in cells is kept apart, so that lamps that change can be added
-    uint cell_stride;      // words of a cell in the array of what cells know
-    uint first_lamp_word;  // of these, that of the first lamps
-    float record_scale;    // scale of the sums x PhotonMap::irradiance_scale
+    uint adds;               // 1: to the sums as they are, 0: from nothing
+    uint keeps_direct;       // 1: the own light of lamps in cells is kept apart, so that lamps that change can be added
+    uint row_length;         // of a cell in LatticeLight::rows()
+    uint first_lamp_column;  // of a row, that of the first lamps
+    float record_scale;      // scale of the sums x PhotonMap::irradiance_scale
 };
 
 LW_CONST uint lamp_sum_group = 64u;
@@ -36,7 +35,7 @@ LW_CONST uint lamp_sum_group = 64u;
 LW_CONST uint lamp_sum_window = 2097152u;
 
 #ifdef __cplusplus
-static_assert(sizeof(LampTerm) == 32 && sizeof(LampSumPush) == 40);
+static_assert(sizeof(LampTerm) == 32 && sizeof(LampSumPush) == 36);
 }  // namespace lw
 #endif
 #endif

@@ -33,9 +33,9 @@ struct Light {
     float cos_outer;
     uint first_emitter;  // range in the list of emissive triangles (mesh lights)
     uint emitter_count;
-    float area;    // m2 of emissive surface, both sides counted when double-sided
+    float area;    // m2 of glowing surface, both sides where both glow (mesh lights)
     vec3 across;   // unit, C0 of the table; `direction` is its aim (profile lights)
-    uint profile;  // first word of the table in the array of texels, see profile.glsl
+    uint profile;  // first number of the table in the array of texels, see profile.glsl
 };
 
 /// A triangle of an emissive mesh. Points on a lamp are picked by area: area_below is that of this and all earlier
@@ -136,7 +136,7 @@ LW_INLINE bool has_table(LightType type) {
     return false;
 }
 
-/// True when the light of a delta light is as good as linear over a cell of the lattice that is far from the light,
+/// True when the light of a delta light is as good as linear over a lattice cell that is far from the light,
 /// sees all of it and is_fully_lit(): then the corners of the cell hold it. A table may bend anywhere.
 LW_INLINE bool is_linear_in_cells(LightType type) {
     switch (type) {

@@ -27,7 +27,7 @@ float irradiance_from_point(Light lamp, vec3 direction, float d2) LW_MEMBER {
     return 0.0f;
 }
 
-/// A light that is_at_point().
+/// The light at `position` of a light that is_at_point().
 LightSample sample_from_point(Light lamp, vec3 position) LW_MEMBER {
     vec3 path = lamp.position - position;
     float d2 = max(dot(path, path), 1e-30f);
@@ -40,6 +40,7 @@ LightSample sample_from_point(Light lamp, vec3 position) LW_MEMBER {
     return result;
 }
 
+/// The light of a light that comes_from_outside(), the same everywhere.
 LightSample sample_directional(Light lamp) LW_MEMBER {
     LightSample result;
     result.far = scene_size;
@@ -50,8 +51,19 @@ LightSample sample_directional(Light lamp) LW_MEMBER {
     return result;
 }
 
-/// m2, one side.
-float area_of_mesh(Light lamp) LW_MEMBER { return emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below; }
+/// The area of the surface that a light glows on, m2, one side; 0 of a light without a surface.
+float area_of_surface(Light lamp) LW_MEMBER {
+    switch (lamp.type) {
+        case light_mesh:
+            return emitters[lamp.first_emitter + lamp.emitter_count - 1u].area_below;
+        case light_point:
+        case light_spot:
+        case light_directional:
+        case light_profile:
+            return 0.0f;
+    }
+    return 0.0f;
+}
 
 /// The triangle of a mesh light in which a share `u` of its area ends, and in `within` how far into it, in [0, 1).
 uint pick_emitter(Light lamp, float u, LW_INOUT(float) within) LW_MEMBER {
@@ -75,7 +87,7 @@ uint pick_emitter(Light lamp, float u, LW_INOUT(float) within) LW_MEMBER {
 /// Solid-angle pdf with which sample_mesh() picks a place that is met from `distance` at `cosine` to its normal; 0
 /// where it is met edge on.
 float mesh_pdf(Light lamp, float distance, float cosine) LW_MEMBER {
-    float area = area_of_mesh(lamp);
+    float area = area_of_surface(lamp);
     return abs(cosine) > min_light_cosine ? distance * distance / (area * abs(cosine)) : 0.0f;
 }
 
@@ -92,11 +104,12 @@ LightSample sample_from_place(Light lamp, vec3 position, LightPlace place) LW_ME
     float cosine = -dot(place.normal, result.to_light) / max(place.normal_length, 1e-30f);
     if (place.both_sides) cosine = abs(cosine);
     result.radiance = cosine > min_light_cosine ? per_intensity(lamp, place.emitted) : vec3(0.0f);
-    result.irradiance = result.radiance * (area_of_mesh(lamp) * max(cosine, 0.0f) / d2);
+    result.irradiance = result.radiance * (area_of_surface(lamp) * max(cosine, 0.0f) / d2);
     result.pdf = mesh_pdf(lamp, result.far, cosine);
     return result;
 }
 
+/// A place on a glowing triangle. `barycentrics`: the weights of its second and third corner.
 LightPlace place_on_triangle(uint triangle, vec2 barycentrics) LW_MEMBER {
     vec3 a = corner_position(triangle, 0u);
     vec3 ab = corner_position(triangle, 1u) - a;
@@ -115,6 +128,7 @@ LightPlace place_on_triangle(uint triangle, vec2 barycentrics) LW_MEMBER {
     return place;
 }
 
+/// The light at `position` from a place of a mesh that two numbers in [0, 1) pick, uniform by area.
 LightSample sample_mesh(Light lamp, vec3 position, vec2 u) LW_MEMBER {
     float within = 0.0f;
     uint triangle = pick_emitter(lamp, u.x, within);

@@ -9,8 +9,8 @@ struct GridPlace {
     uint index;  // of the grid, or no_grid, then nothing else holds
     SurfaceGrid grid;
     vec3 local;  // u, v, h in the frame of the grid, m
-    uint cell;   // lower left node of the cell of the lattice
-    vec2 f;      // place in the cell, 0 to 1
+    uint cell;   // the lattice cell, by the number of its lower left node
+    vec2 f;      // place in the lattice cell, 0 to 1
 };
 
 /// The grid of a point of a surface whose grid or cut is `index`; no_grid where it has none.
@@ -24,7 +24,7 @@ GridPlace place_on_grid(uint index, vec3 position) LW_MEMBER {
     at.index = behind_cuts(index, position);
     at.grid = grid_at(at.index == no_grid ? 0u : at.index);  // anything, but there
     at.local = position_in_grid(at.grid, position);
-    at.cell = cell_node(at.grid.lattice, at.local, at.f);
+    at.cell = lattice_cell_of(at.grid.lattice, at.local, at.f);
     return at;
 }
 

@@ -25,7 +25,7 @@ struct SurfaceLattice {
 };
 
 /// The 2D uniform grid of one patch: a triangle, or small triangles of like orientation, seen from one side.
-/// Cell (i, j) is cell_starts[first_cell + j * columns + i], its end the next entry.
+/// Grid cell (i, j) is cell_starts[first_cell + j * columns + i], its end the next entry.
 struct SurfaceGrid {
     vec3 origin;      // corner of the grid; position = origin + u u_axis + v v_axis + h normal
     float cell_size;  // m
@@ -70,65 +70,76 @@ LW_CONST float min_coverage = 0.05f;
 
 LW_CONST float caustic_neighbours = 120.0f;  // photons that the kernel of a caustic should hold
 
-/// Four bits for a node and a lamp: what the surroundings of the node see of the lamp (some_visible, some_hidden), then
-/// the same for the node itself. No bits set: not known.
+// Two tables of bits are kept for the lamps. Each has a row of 32-bit numbers for a node or for a cell of a lattice,
+// and each column of a row holds the bits of some lamps.
+
+/// A table of rows for nodes: four bits for a node and a lamp. They tell what the surroundings of the node see of the
+/// lamp (some_visible, some_hidden), then the same for the node itself. No bits set: not known.
 LW_CONST uint some_visible = 1u;
 LW_CONST uint some_hidden = 2u;
 LW_CONST uint own_shift = 2u;
-LW_CONST uint lamps_per_word = 8u;
-LW_INLINE uint visibility_words(uint lamps) { return (lamps + lamps_per_word - 1u) / lamps_per_word; }
-LW_INLINE uint visibility_word(uint lamp) { return lamp / lamps_per_word; }
-LW_INLINE uint visibility_shift(uint lamp) { return 4u * (lamp % lamps_per_word); }
+LW_CONST uint lamps_per_visibility_column = 8u;
+LW_INLINE uint visibility_row_length(uint lamps) {
+    return (lamps + lamps_per_visibility_column - 1u) / lamps_per_visibility_column;
+}
+LW_INLINE uint visibility_column(uint lamp) { return lamp / lamps_per_visibility_column; }
+LW_INLINE uint visibility_shift(uint lamp) { return 4u * (lamp % lamps_per_visibility_column); }
 
-/// Eight bits for a cell of a lattice and a lamp: what the surroundings of its corners see (some_visible, some_hidden;
-/// no bits: not known), whether the light of its corners holds the lamp, whether it has a shadow mask, and which
-/// corners see some of the lamp.
-LW_CONST uint in_cell_light = 4u;
-LW_CONST uint corner_sees = 16u;  // << 0 to 3: corner (0, 0), (1, 0), (0, 1), (1, 1)
-LW_CONST uint cell_lamps_per_word = 4u;
-LW_INLINE uint cell_lamp_words(uint lamps) { return (lamps + cell_lamps_per_word - 1u) / cell_lamps_per_word; }
+/// A table of rows for cells of lattices, each numbered by its lower left node: eight bits for a cell and a lamp. They
+/// tell what the surroundings of its corners see (some_visible, some_hidden; no bits: not known), whether the light of
+/// its corners holds the lamp, whether it has a shadow mask, and which corners see some of the lamp.
+LW_CONST uint in_lattice_light = 4u;
 LW_CONST uint has_shadow_mask = 8u;
-/// The number of words per cell: a word of marks, if any cell has some, then the lamps. The lowest four bits of the
-/// marks tell which corners, in the order of corner_sees, hold the caustics; the bits above are the index of the first
-/// shadow mask of the cell, whose masks are in the order of lamps.
-LW_INLINE uint cell_words(uint lamps, bool has_marks) { return cell_lamp_words(lamps) + (has_marks ? 1u : 0u); }
+LW_CONST uint corner_sees = 16u;  // << 0 to 3: corner (0, 0), (1, 0), (0, 1), (1, 1)
+LW_CONST uint bits_per_lattice_lamp = 8u;
+LW_CONST uint lamps_per_lattice_column = 4u;
+LW_INLINE uint lattice_lamp_columns(uint lamps) {
+    return (lamps + lamps_per_lattice_column - 1u) / lamps_per_lattice_column;
+}
+/// The columns of a row: one of marks, if any cell has some, then those of the lamps. The lowest four bits of the marks
+/// tell which corners, in the order of corner_sees, hold the caustics; the bits above are the index of the first shadow
+/// mask of the cell, whose masks are in the order of lamps.
+LW_INLINE uint lattice_row_length(uint lamps, bool has_marks) {
+    return lattice_lamp_columns(lamps) + (has_marks ? 1u : 0u);
+}
 LW_CONST uint first_mask_shift = 4u;
-/// Pixels are listed for pairs of lamps, the first or the last half of a word.
-LW_CONST uint lamps_per_pair = 2u;
-LW_INLINE uint ray_pairs(uint lamps) { return max((lamps + lamps_per_pair - 1u) / lamps_per_pair, 1u); }
-LW_INLINE uint cell_lamp_word(uint lamp) { return lamp / cell_lamps_per_word; }
-LW_CONST uint bits_per_cell_lamp = 8u;
-LW_INLINE uint cell_lamp_shift(uint lamp) { return bits_per_cell_lamp * (lamp % cell_lamps_per_word); }
-/// What a cell knows of the lamp whose bits begin at `shift` in a word.
-LW_INLINE uint cell_lamp_bits(uint word, uint shift) { return (word >> shift) & 0xffu; }
-/// The lowest bit of each lamp of a word; and of those for which `mark` is set, some_visible to has_shadow_mask.
+/// The column of a lamp, counted from that of the first lamps, and where the lamp's bits begin in it.
+LW_INLINE uint lattice_lamp_column(uint lamp) { return lamp / lamps_per_lattice_column; }
+LW_INLINE uint lattice_lamp_shift(uint lamp) { return bits_per_lattice_lamp * (lamp % lamps_per_lattice_column); }
+/// The eight bits of the lamp whose bits begin at `shift` in the column `bits`.
+LW_INLINE uint lattice_lamp_bits(uint bits, uint shift) { return (bits >> shift) & 0xffu; }
+/// The lowest bit of each lamp of a column.
 LW_CONST uint lowest_lamp_bits = 0x01010101u;
-LW_INLINE uint lamps_with(uint word, uint mark) { return (word >> uint(findLSB(mark))) & lowest_lamp_bits; }
+/// The lowest bits of those lamps of the column `bits` for which `mark` is set: some_visible to has_shadow_mask.
+LW_INLINE uint lamps_with(uint bits, uint mark) { return (bits >> uint(findLSB(mark))) & lowest_lamp_bits; }
 /// The bits of the corners that see some of a lamp, as corners_set() takes them.
 LW_INLINE uint seeing_corners(uint lamp_bits) { return lamp_bits >> uint(findLSB(corner_sees)); }
+/// Pixels are listed for pairs of lamps, the first or the last half of a column.
+LW_CONST uint lamps_per_pair = 2u;
+LW_INLINE uint ray_pairs(uint lamps) { return max((lamps + lamps_per_pair - 1u) / lamps_per_pair, 1u); }
 
-/// The part of the corners of a cell whose bits 0 to 3 are set, in the order of corner_sees, as seen from `f` in the
-/// cell.
+/// Interpolates between the corners of a cell of a lattice, those of the set `bits` being 1 and the others 0. Bits 0 to
+/// 3 are the corners in the order of corner_sees; `f` is the place in the cell, 0 to 1 along u and v. Returns 0 to 1.
 LW_INLINE float corners_set(uint bits, vec2 f) {
     vec4 set = vec4(float(bits & 1u), float((bits >> 1) & 1u), float((bits >> 2) & 1u), float((bits >> 3) & 1u));
     return mix(mix(set.x, set.y, f.x), mix(set.z, set.w, f.x), f.y);
 }
 
-/// A shadow mask: which of 8 x 8 points of a cell a lamp lights. Bit 8 j + i of (lit_low, lit_high) is set when point
-/// (i, j) is lit; points lie at the centres of 8 x 8 squares. `tint`: the part of the light that reaches lit points,
-/// RGB9E5.
+/// A shadow mask: which of 8 x 8 points of a cell of a lattice a lamp lights. Bit 8 j + i of (lit_low, lit_high) is set
+/// when point (i, j) is lit; points lie at the centres of 8 x 8 squares. `tint`: the part of the light that reaches lit
+/// points, RGB9E5.
 struct ShadowMask {
-    uint cell;
+    uint cell;  // its lower left node
     uint lamp;
     uint lit_low;
     uint lit_high;
     uint tint;
 };
 LW_CONST uint shadow_mask_side = 8u;
-LW_CONST uint shadow_mask_rows = 4u;  // of a word
-/// The first point of every row of a word.
+LW_CONST uint shadow_mask_rows = 4u;  // in lit_low, and in lit_high
+/// The first point of every row of lit_low or lit_high.
 LW_CONST uint shadow_mask_column = 0x01010101u;
-/// The points of rows `first` to `last` of a word whose rows are 0 to 3; rows beyond the word are left out.
+/// The points of rows `first` to `last` of lit_low or lit_high, whose rows are 0 to 3; rows beyond are left out.
 LW_INLINE uint shadow_mask_row_bits(int first, int last) {
     int rows = int(shadow_mask_rows);
     uint begin = uint(clamp(first, 0, rows));

@@ -19,8 +19,8 @@ layout(set = 0, binding = binding_places) uniform utextureBuffer places[max_chun
 layout(set = 0, binding = binding_fluxes) uniform utextureBuffer fluxes[max_chunks];
 layout(set = 0, binding = binding_directions) uniform utextureBuffer directions[max_chunks];
 layout(set = 0, binding = binding_coverage) uniform utextureBuffer coverage;
-layout(set = 0, binding = binding_cell_light) uniform utextureBuffer light_of_cells;
-layout(set = 0, binding = binding_cell_words) uniform utextureBuffer words_of_cells;
+layout(set = 0, binding = binding_lattice_light) uniform utextureBuffer light_of_lattices;
+layout(set = 0, binding = binding_lattice_rows) uniform utextureBuffer rows_of_lattices;
 layout(set = 0, binding = binding_shadow_masks) uniform utextureBuffer shadow_masks;
 layout(set = 0, binding = binding_bvh_triangles) uniform utextureBuffer bvh_triangles;
 #ifdef LW_RAY_QUERIES
@@ -118,9 +118,9 @@ uint cell_start(uint cell) { return texelFetch(cell_starts, int(cell)).x; }
 
 uint node_coverage(uint node) { return texelFetch(coverage, int(node)).x; }
 
-uvec4 cell_light(uint cell) { return texelFetch(light_of_cells, int(cell)); }
+uvec4 lattice_light(uint cell) { return texelFetch(light_of_lattices, int(cell)); }
 
-uint cell_word(uint word) { return texelFetch(words_of_cells, int(word)).x; }
+uint lattice_row_entry(uint i) { return texelFetch(rows_of_lattices, int(i)).x; }
 
 uvec4 shadow_mask(uint i) { return texelFetch(shadow_masks, int(i)); }
 

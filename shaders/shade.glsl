@@ -45,7 +45,7 @@ Gathered estimate_at(Seen seen) LW_MEMBER {
 /// True when a lamp of a pair must be added to the light of the photons.
 bool needs_rays(Seen seen, uint pair) LW_MEMBER {
     return has_direct &&
-           lamps_to_add(lamp_bits(seen.at, cell_lamp_word(pair * lamps_per_pair)), pair, seen.surface) != 0u;
+           lamps_to_add(lamp_bits(seen.at, lattice_lamp_column(pair * lamps_per_pair)), pair, seen.surface) != 0u;
 }
 
 /// Adds the direct light of one pair of lamps.

@@ -1,6 +1,6 @@
-// Second pass of the sum over lamps: the corners of each cell with the lamps' own light that the cell holds, packed as
-// the gather reads them. What is added of the own light is kept apart where lamps change one by one: four vectors a
-// cell.
+// Second pass of the sum over lamps: for each lattice cell the irradiance at its four corners, with the lamps' own
+// light that the cell holds, packed as the gather reads it. Where lamps change one by one, the own light is kept apart
+// too: four vectors a cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -8,7 +8,7 @@
 #include "lamp_sum.glsl"
 
 layout(set = 0, binding = binding_lattice_columns) uniform utextureBuffer lattice_columns;
-layout(set = 0, binding = binding_sum_cell_words) uniform utextureBuffer words_of_cells;
+layout(set = 0, binding = binding_sum_lattice_rows) uniform utextureBuffer rows_of_lattices;
 layout(set = 0, binding = binding_direct_marks) uniform utextureBuffer direct_marks;
 layout(set = 0, binding = binding_direct_values) uniform utextureBuffer direct_values;
 layout(set = 0, binding = binding_node_sum_texels) uniform textureBuffer node_sums;
@@ -18,15 +18,16 @@ layout(set = 0, binding = binding_cell_sums, scalar) writeonly buffer CellSums {
 
 /// lux at a node from a lamp at intensity 1.
 float direct_at(uint punctual, uint node) {
-    uint word = punctual * push.nodes + node;
-    uint place = sparse_place(texelFetch(direct_marks, int(word / 32u)).xy, word);
+    uint entry = punctual * push.nodes + node;
+    uint place = sparse_place(texelFetch(direct_marks, int(entry / 32u)).xy, entry);
     return place == no_place ? 0.0f : uintBitsToFloat(texelFetch(direct_values, int(place)).x);
 }
 
+/// True when the light of a lattice cell holds the lamp's own light.
 bool holds(uint cell, uint lamp) {
-    uint word =
-        texelFetch(words_of_cells, int(cell * push.cell_stride + push.first_lamp_word + cell_lamp_word(lamp))).x;
-    return ((word >> cell_lamp_shift(lamp)) & in_cell_light) != 0u;
+    uint column = push.first_lamp_column + lattice_lamp_column(lamp);
+    uint bits = texelFetch(rows_of_lattices, int(cell * push.row_length + column)).x;
+    return ((bits >> lattice_lamp_shift(lamp)) & in_lattice_light) != 0u;
 }
 
 void main() {
@@ -36,7 +37,7 @@ void main() {
     if (columns == 0u) return;  // the last column or row begins no cell
     uint corners[4] = uint[4](cell, cell + 1u, cell + columns, cell + columns + 1u);
     precise vec3 e[4];
-    vec3 direct[4];  // of it what lamps shine into the cell themselves
+    vec3 direct[4];  // the part of e that is the lamps' own light
     uint local = cell - push.first;
     bool adds = push.keeps_direct != 0u && push.adds != 0u;
     for (uint c = 0u; c < 4u; ++c) {

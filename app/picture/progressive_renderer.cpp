@@ -123,7 +123,7 @@ Rows ProgressiveRenderer::next_rows(const FrameRequest& request) const {
 
 void ProgressiveRenderer::record_lights(vk::CommandBuffer commands, const FrameRequest& request,
                                         const DisplaySettings& display, Rows rows) {
-    using Side = LiveView::Side;
+    using Side = FrameRenderer::Side;
     constexpr uint factors_a = 0, factors_b = 1;
     const bool stands_still = samples_ > 0;  // then all lamps are summed anew, once
     resident_.record_lamp_factors(commands, request.factors_a, factors_a, stands_still);
@@ -150,7 +150,8 @@ std::vector<ReadbackPixel> ProgressiveRenderer::inspect(const FrameRequest& requ
     DisplaySettings display;
     display.kind.view = view;
     submit_and_wait(*device_, [&](vk::CommandBuffer commands) {
-        live_->record_light(commands, frame_of_sample(request.camera, picture_size_, 0), inspect, LiveView::Side::b);
+        live_->record_light(commands, frame_of_sample(request.camera, picture_size_, 0), inspect,
+                            FrameRenderer::Side::b);
         live_->record_view(commands, display.kind,
                            push_of(display, live_->size(), picture_size_, samples_, fresh_rows_), slot);
     });

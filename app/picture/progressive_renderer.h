@@ -3,7 +3,7 @@
 #pragma once
 #include <optional>
 
-#include "gather/live_view.h"
+#include "gather/frame_renderer.h"
 
 namespace lw {
 
@@ -90,7 +90,7 @@ class ProgressiveRenderer {
     const Device* device_;
     std::shared_ptr<const PhotonMap> map_;
     Resident resident_;
-    std::optional<LiveView> live_;
+    std::optional<FrameRenderer> live_;
     std::optional<Drawn> drawn_;
     vk::Extent2D picture_size_;
     uint samples_ = 0;       // complete samples in the picture

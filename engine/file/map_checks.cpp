@@ -138,7 +138,7 @@ void check_map(const std::filesystem::path& path, PhotonMap& map, const Scene& s
             refuse(path, "a photon refers to lamp " + std::to_string(light_of(place)) + " which does not exist");
     check_lattices(path, map);
     if (map.has_visible_lamps() &&
-        map.visible_lamps.size() != map.coverage.size() * visibility_words(uint(scene.lights.size())))
+        map.visible_lamps.size() != map.coverage.size() * visibility_row_length(uint(scene.lights.size())))
         refuse(path, "lattices and lamp visibility do not agree");
     if (!map.irradiance.accept(map.coverage.size() * scene.lights.size()))
         refuse(path, "lattices and irradiance do not agree");

@@ -34,7 +34,7 @@ uint64_t total_bytes(const Scene& s, const PhotonMap& m, bool queries_rays) {
     return s.triangles.size() * (3 * corner + sizeof(uvec4) + rays_per_triangle) + list_bytes(s) + bytes(s.texels) +
            m.bytes() +
            m.coverage.size() * (sizeof(uvec4) + sizeof(vec4) + sizeof(uint) +
-                                cell_words(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
+                                lattice_row_length(uint(s.lights.size()), m.has_marks()) * sizeof(uint));
 }
 
 /// The number of photons, to one significant digit, of a map that fits into the budget beside `others` bytes. Assumes

@@ -55,7 +55,7 @@ float total_of(std::span<const vec3> powers) {
 
 }  // namespace
 
-LampSum::LampSum(const Device& device, const Scene& scene, const PhotonMap& map, const CellLight& cells)
+LampSum::LampSum(const Device& device, const Scene& scene, const PhotonMap& map, const LatticeLight& cells)
     : device_(&device),
       scene_(&scene),
       map_(&map),
@@ -74,7 +74,7 @@ LampSum::LampSum(const Device& device, const Scene& scene, const PhotonMap& map,
     add(binding_direct_marks, two, cells.direct().marks_and_starts(), "direct light of lamps");
     add(binding_direct_values, word, cells.direct().values, "direct light of lamps");
     add(binding_lattice_columns, word, columns_of(map), "lattice");
-    add(binding_sum_cell_words, word, cells.words(), "cells");
+    add(binding_sum_lattice_rows, word, cells.rows(), "cells");
     const vk::DescriptorSetLayout sets[] = {shape_.layout()};
     layout_ = make_layout(device, sets, vk::ShaderStageFlagBits::eCompute, sizeof(LampSumPush));
     nodes_pass_ = make_compute_pipeline(device, *layout_, sum_nodes_comp, {});
@@ -144,12 +144,11 @@ void LampSum::record(vk::CommandBuffer commands, LampSumSetting& setting, std::s
     record_update(commands, setting.terms, std::span<const LampTerm>(terms));  // after the frame before
     LampSumPush push{};
     push.nodes = nodes_;
-    push.lamps = uint(powers.size());
     push.terms = uint(terms.size());
     push.adds = whole ? 0 : 1;
     push.keeps_direct = setting.cell_direct.size() > 0;
-    push.cell_stride = cell_words(push.lamps, map_->has_marks());
-    push.first_lamp_word = map_->has_marks() ? 1 : 0;
+    push.row_length = lattice_row_length(uint(powers.size()), map_->has_marks());
+    push.first_lamp_column = map_->has_marks() ? 1 : 0;
     push.record_scale = record_scale(setting);
     dispatch(commands, setting, push);
     setting.powers.assign(powers.begin(), powers.end());

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "gpu/pipeline.h"
-#include "maps/cells.h"
+#include "maps/lattice_light.h"
 #include "scene/scene.h"
 #include "shaders/lamp_sum.h"
 
@@ -28,9 +28,9 @@ class LampSum {
   public:
     /// Uploads irradiance and direct light of the lamps, sparse. Device, scene, map and cells must outlive it; `cells`
     /// are those of scene and map. Throws Error when they do not fit.
-    LampSum(const Device& device, const Scene& scene, const PhotonMap& map, const CellLight& cells);
+    LampSum(const Device& device, const Scene& scene, const PhotonMap& map, const LatticeLight& cells);
 
-    /// Buffers for one setting; its cells are what the gather reads as cell_light.
+    /// Buffers for one setting; its cells are what the gather reads as lattice_light.
     LampSumSetting make_setting() const;
 
     /// Records the sum at these powers (one RGB power per lamp) into the cells of a setting. Lamps that changed are
@@ -54,9 +54,9 @@ class LampSum {
     const Device* device_;
     const Scene* scene_;
     const PhotonMap* map_;
-    const CellLight* cells_;
+    const LatticeLight* cells_;
     uint nodes_;
-    std::vector<uint> punctual_;  // of each lamp: its place among CellLight::punctual(), or no_place
+    std::vector<uint> punctual_;  // of each lamp: its place among LatticeLight::punctual(), or no_place
     std::vector<std::pair<uint, vk::UniqueBufferView>> shared_;  // binding and texels
     std::vector<Buffer> buffers_;
     DescriptorSet shape_;  // never bound: the layout of the settings' sets

@@ -13,18 +13,19 @@
 namespace lw {
 namespace {
 
-/// Without ray queries there is no acceleration structure.
+/// The bindings of the scene's descriptor set: without the acceleration structure where there are no ray queries.
 std::vector<Binding> scene_bindings(bool queries_rays) {
     std::vector<Binding> bindings = bindings_of(BindingSet::scene);
     if (!queries_rays) std::erase_if(bindings, [](const Binding& b) { return b.binding == binding_acceleration; });
     return bindings;
 }
 
+/// How many buffers of 2^shift records hold so many records; at least 1.
 uint chunk_count(uint64_t records, uint shift) {
     return uint(std::max<uint64_t>(1, (records + (1ull << shift) - 1) >> shift));
 }
 
-/// The least roughness of a surface with a specular lobe; 1 without any.
+/// The smallest glTF roughness of a material with a specular lobe, 0 where a texture gives it; 1 without any.
 float min_roughness(const Scene& scene) {
     float least = 1;
     for (const Material& m : scene.materials)
@@ -66,7 +67,7 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
     set_lamp_factors(std::vector<vec3>(scene.lights.size(), vec3(1)));
 }
 
-/// Each record in so many texels of four words.
+/// The records as texels of 16 bytes, `Texels` for each record; what a record leaves of them is 0.
 template <uint Texels, class T>
 std::vector<uvec4> as_texels(const std::vector<T>& records) {
     std::vector<uvec4> texels(Texels * records.size());
@@ -83,7 +84,7 @@ void Resident::upload_scene(const Scene& scene) {
                          "textures");
 }
 
-/// The values of the vertices at the corners of all triangles.
+/// The values of vertices, three for each triangle in the order of its corners; empty when there are none.
 template <class T>
 std::vector<T> at_corners(const Scene& scene, const std::vector<T>& values) {
     std::vector<T> corners;
@@ -136,7 +137,7 @@ void Resident::upload_map(const PhotonMap& map) {
     upload_chunks<uint>(binding_fluxes, word, map.fluxes, "photon fluxes");
     upload_chunks<uint16_t>(binding_directions, vk::Format::eR16Uint, map.directions, "photon directions");
     upload_texels<uint>(binding_coverage, word, map.coverage, "coverage");
-    upload_texels<uint>(binding_cell_words, word, cells_ ? cells_->words() : std::vector<uint>(), "cells");
+    upload_texels<uint>(binding_lattice_rows, word, cells_ ? cells_->rows() : std::vector<uint>(), "cells");
     upload_texels<uvec4>(binding_shadow_masks, four, cells_ ? cells_->masks() : std::vector<uvec4>(), "shadow masks");
 }
 
@@ -144,15 +145,15 @@ void Resident::upload_direct(const Scene& scene, const Bvh& bvh) {
     upload_records<Light>(binding_lights, scene.lights, "lights");
     upload_records<Emitter>(binding_emitters, scene.emitters, "emitters");
     const std::span<const BvhNode> nodes = queries_rays_ ? std::span<const BvhNode>() : bvh.nodes;
-    const std::vector<uint> triangles = queries_rays_ ? queried(bvh) : bvh.triangles;
+    const std::vector<uint> triangles = queries_rays_ ? build_acceleration(bvh) : bvh.triangles;
     upload_texels<BvhNode>(binding_bvh_nodes, vk::Format::eR32G32B32A32Uint, nodes,
                            "nodes of the shadow rays' hierarchy");
     upload_texels<uint>(binding_bvh_triangles, vk::Format::eR32Uint, triangles,
                         "triangles of the shadow rays' hierarchy");
-    list_of_rays_ = nodes.size_bytes() + triangles.size() * sizeof(uint);
+    hierarchy_bytes_ = nodes.size_bytes() + triangles.size() * sizeof(uint);
 }
 
-std::vector<uint> Resident::queried(const Bvh& bvh) {
+std::vector<uint> Resident::build_acceleration(const Bvh& bvh) {
     std::vector<uint> entries = bvh.triangles;
     const auto others = std::stable_partition(entries.begin(), entries.end(),
                                               [](uint entry) { return (entry & bvh_see_through) == 0; });
@@ -176,6 +177,7 @@ void Resident::upload_records(uint binding, std::span<const T> values, const std
     for (const DescriptorSet& set : descriptors_) set.set_buffer(binding, buffers_.back());
 }
 
+/// The size of a texel of one of the formats used here.
 uint texel_bytes(vk::Format format) {
     switch (format) {
         case vk::Format::eR16Uint:
@@ -255,7 +257,7 @@ void Resident::make_lamps(uint setting) {
     descriptors_[setting].set_texels(binding_lamp_powers, *views_.back());
     const Buffer& cells = lamps.sum ? lamps.sum->cells : lamps.no_cells;
     views_.push_back(view_as_texels(*device_, cells, vk::Format::eR32G32B32A32Uint));
-    descriptors_[setting].set_texels(binding_cell_light, *views_.back());
+    descriptors_[setting].set_texels(binding_lattice_light, *views_.back());
 }
 
 float Resident::inverse_irradiance_scale(uint setting) const {
@@ -263,7 +265,9 @@ float Resident::inverse_irradiance_scale(uint setting) const {
     return lamps.sum ? 1 / lamp_sum_->record_scale(*lamps.sum) : 1.0f;
 }
 
-uint64_t Resident::ray_bytes() const { return acceleration_ ? acceleration_->bytes() + list_of_rays_ : list_of_rays_; }
+uint64_t Resident::ray_bytes() const {
+    return acceleration_ ? acceleration_->bytes() + hierarchy_bytes_ : hierarchy_bytes_;
+}
 
 uint64_t Resident::bytes() const {
     uint64_t sum = 0;

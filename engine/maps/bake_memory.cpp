@@ -37,9 +37,9 @@ double bytes_of(const Counts& c) {
 }
 
 bool can_be_counted(const Counts& c) {
-    const double words = std::ceil(c.lamps / lamps_per_word);
+    const double columns = std::ceil(c.lamps / lamps_per_visibility_column);
     return c.photons * max_references_per_photon < max_indices && c.samples * max_references_per_photon < max_indices &&
-           c.nodes * std::max(words, 1.0) < max_indices;
+           c.nodes * std::max(columns, 1.0) < max_indices;
 }
 
 /// The largest number of photons below `wanted`, of one significant digit, for which `fits` is true; 0 when there is

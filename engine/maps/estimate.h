@@ -5,8 +5,8 @@
 #include <cassert>
 #include <memory>
 
-#include "maps/cells.h"
 #include "maps/gather_settings.h"
+#include "maps/lattice_light.h"
 #include "maps/map_reader.h"
 #include "scene/bvh.h"
 #include "scene/surface.h"
@@ -16,7 +16,7 @@
 namespace lw {
 
 /// The kinds of records that the text reads.
-enum class Record { surface, grid, cell, photon, flux, direction, box, triangle, word };
+enum class Record { surface, grid, cell, photon, flux, direction, box, triangle, number };
 
 /// A `Count` that does nothing.
 struct Uncounted {
@@ -44,9 +44,9 @@ class GatherText : public SurfaceReader {
           bvh_(bvh),
           powers_(&lamp_powers) {
         if (map.irradiance.empty()) return;
-        const CellLight cells(scene, map);
-        cells_ = std::make_shared<const Cells>(Cells{cells.words(), cells.masks()});
-        if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(lamp_powers, cell_light_);
+        const LatticeLight cells(scene, map);
+        cells_ = std::make_shared<const Cells>(Cells{cells.rows(), cells.masks()});
+        if (gather_mode == gather_mode_cached) inverse_irradiance_scale = 1 / cells.sum(lamp_powers, lattice_light_);
     }
 
     /// A copy with the lamps at other powers, which must outlive it. Not for the cached mode, whose cells hold sums
@@ -73,17 +73,17 @@ class GatherText : public SurfaceReader {
     Surface surface_at(uint triangle, vec2 barycentrics) const {
         return counted(Record::surface), SurfaceReader::surface_at(triangle, barycentrics);
     }
-    uint node_coverage(uint node) const { return counted(Record::word), maps_.node_coverage(node); }
-    uvec4 cell_light(uint cell) const { return counted(Record::cell), cell_light_[cell]; }
-    uint cell_word(uint word) const { return counted(Record::word), cells_->words[word]; }
+    uint node_coverage(uint node) const { return counted(Record::number), maps_.node_coverage(node); }
+    uvec4 lattice_light(uint cell) const { return counted(Record::cell), lattice_light_[cell]; }
+    uint lattice_row_entry(uint i) const { return counted(Record::number), cells_->rows[i]; }
     uvec4 shadow_mask(uint i) const { return counted(Record::cell), cells_->masks[i]; }
-    uint grid_of(uint triangle, bool front) const { return counted(Record::word), maps_.grid_of(triangle, front); }
+    uint grid_of(uint triangle, bool front) const { return counted(Record::number), maps_.grid_of(triangle, front); }
     uint caustic_grid_of(uint triangle, bool front) const {
-        return counted(Record::word), maps_.caustic_grid_of(triangle, front);
+        return counted(Record::number), maps_.caustic_grid_of(triangle, front);
     }
     const SurfaceGrid& grid_at(uint index) const { return counted(Record::grid), maps_.grid_at(index); }
     const Cut& cut_at(uint i) const { return maps_.cut_at(i); }
-    uint cell_start(uint cell) const { return counted(Record::word), maps_.cell_start(cell); }
+    uint cell_start(uint cell) const { return counted(Record::number), maps_.cell_start(cell); }
     const BvhNode& bvh_node_at(uint i) const { return counted(Record::box), bvh_.nodes[i]; }
     uint bvh_triangle_at(uint i) const { return counted(Record::triangle), bvh_.triangles[i]; }
 
@@ -110,9 +110,9 @@ class GatherText : public SurfaceReader {
     Count counted;
 
   private:
-    /// What cells know of the lamps, CellLight::words() and masks().
+    /// What lattice cells know of the lamps, LatticeLight::rows() and masks().
     struct Cells {
-        std::vector<uint> words;
+        std::vector<uint> rows;
         std::vector<uvec4> masks;
     };
     static const Bvh& no_shadows() {
@@ -133,7 +133,7 @@ class GatherText : public SurfaceReader {
     const Bvh& bvh_;
     const std::vector<vec3>* powers_;
     std::shared_ptr<const Cells> cells_;  // none without irradiance at the nodes
-    std::vector<uvec4> cell_light_;       // cached mode only
+    std::vector<uvec4> lattice_light_;    // cached mode only
     float inverse_irradiance_scale = 1;
 
     float max_radius = map_.settings.radius, inverse_flux_scale = 1.0f / map_.flux_scale;

@@ -69,7 +69,7 @@ PhotonPlace place_of(vec3 local, uint origin, const SurfaceGrid& grid) {
             step(local.z, grid.quantum.z) | origin << 16};
 }
 
-uint cell_of(PhotonPlace place, const SurfaceGrid& grid) {
+uint grid_cell_of(PhotonPlace place, const SurfaceGrid& grid) {
     const vec3 local = place_in_grid(place, grid);
     const uint x = std::min(uint(local.x / grid.cell_size), grid.columns - 1);
     const uint y = std::min(uint(local.y / grid.cell_size), grid.rows - 1);
@@ -87,7 +87,7 @@ std::vector<uint> fill_grid(SurfaceGrid& grid, const std::vector<Photon>& photon
     std::vector<uint> cells(records.size()), next(size_t(grid.columns) * grid.rows, 0);
     for (size_t i = 0; i < records.size(); ++i) {
         places[i] = place_of(records[i].local - bounds.low, records[i].origin, grid);
-        cells[i] = cell_of(places[i], grid);
+        cells[i] = grid_cell_of(places[i], grid);
         ++next[cells[i]];
     }
     for (uint& start : next) begin += std::exchange(start, begin);

@@ -21,7 +21,7 @@ struct GridReader {
     template <class Visit>
     void visit_photons(const SurfaceGrid& grid, vec3 local, float radius, const Visit& visit) const {
         const vec3 reach(radius, radius, 0);
-        const ivec2 low = cell_of(local - reach, grid), high = cell_of(local + reach, grid);
+        const ivec2 low = grid_cell_of(local - reach, grid), high = grid_cell_of(local + reach, grid);
         for (int y = low.y; y <= high.y; ++y) {
             const uvec2 span = row_span(grid, low.x, high.x, y);
             for (uint i = span.x; i < span.y; ++i) {

@@ -126,8 +126,8 @@ class NodeLight {
     }
 
     vec3 direct_of_mesh(uint lamp, uint node, vec3 position, vec3 n) const {
-        const uint words = visibility_words(lamps_);
-        const uint seen = (visible_lamps_[node * words + visibility_word(lamp)] >> visibility_shift(lamp)) & 3u;
+        const uint length = visibility_row_length(lamps_);
+        const uint seen = (visible_lamps_[node * length + visibility_column(lamp)] >> visibility_shift(lamp)) & 3u;
         if (seen == some_hidden) return vec3(0);
         if (seen == some_visible && emitters_.is_even(lamp)) return emitters_.even_irradiance(lamp, position, n);
         vec3 sum(0);

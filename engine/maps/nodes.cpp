@@ -117,7 +117,7 @@ Nodes lay_nodes(const Scene& scene, const Partition& partition, PatchGrids surfa
         lattice.first_node = uint(count);
         count += uint64_t(lattice.columns) * lattice.rows;
     }
-    if (count * visibility_words(uint(scene.lights.size())) >= no_grid)
+    if (count * visibility_row_length(uint(scene.lights.size())) >= no_grid)
         throw Error("photon map: more than 2^32 lattice nodes; use a larger radius");
     std::vector<NodePoint> points(count);
     const SidesOfGrids sides(surfaces);

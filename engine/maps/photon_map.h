@@ -40,10 +40,10 @@ struct SurfaceGrids {
     }
 };
 
-/// References to photons, sorted by grid and cell: those of cell c are entries cell_starts[c] .. cell_starts[c + 1] - 1
-/// of the record arrays. Flux is for intensity 1 of the photon's light: lm per cd, per lx or per cd/m2.
+/// References to photons, sorted by grid and grid cell: those of cell c are entries cell_starts[c] .. cell_starts[c +
+/// 1] - 1 of the record arrays. Flux is for intensity 1 of the photon's light: lm per cd, per lx or per cd/m2.
 struct PhotonRecords {
-    std::vector<uint> cell_starts;     // cells of all grids + 1
+    std::vector<uint> cell_starts;     // one per cell of all grids, and one more
     std::vector<PhotonPlace> places;   // 8 bytes per reference
     std::vector<uint> fluxes;          // RGB9E5 per reference
     std::vector<uint16_t> directions;  // octahedral direction the photon came from; empty without glossy surfaces
@@ -64,13 +64,13 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
     uint caustic_cuts = 0;          // how many of the cuts, the last ones
 
     std::vector<uint> coverage;       // per node of all lattices, see unpack_coverage()
-    std::vector<uint> visible_lamps;  // which lamps the nodes see, see visibility_words(); empty when photons hold all
-                                      // light
+    std::vector<uint> visible_lamps;  // which lamps the nodes see, see visibility_row_length(); empty when photons hold
+                                      // all light
     SparseArray irradiance;           // of the nodes for lamp 0, lamp 1, ...: RGB9E5 of lux per unit intensity x scale
     float irradiance_scale = 1;
     std::vector<uint> smooth_caustics;     // a bit per node: its irradiance holds caustics; empty without caustics, and
                                            // when photons hold all light
-    std::vector<ShadowMask> shadow_masks;  // in the order of cells and lamps; empty when photons hold all light
+    std::vector<ShadowMask> shadow_masks;  // in the order of lattice cells and lamps; empty when photons hold all light
 
     /// The bytes of all arrays.
     uint64_t bytes() const {
@@ -85,7 +85,7 @@ struct PhotonMap : SurfaceGrids, PhotonRecords {
     bool holds_caustics(size_t node) const {
         return !smooth_caustics.empty() && ((smooth_caustics[node / 32] >> (node % 32)) & 1u);
     }
-    /// True when the words of a cell begin with a word of marks, see cell_words().
+    /// True when the rows of lattice cells begin with a column of marks, see lattice_row_length().
     bool has_marks() const { return !smooth_caustics.empty() || !shadow_masks.empty(); }
     bool has_coverage() const { return !coverage.empty(); }
     bool has_visible_lamps() const { return !visible_lamps.empty(); }

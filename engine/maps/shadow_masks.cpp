@@ -45,10 +45,10 @@ class MaskRays {
 
   private:
     CornerBits corner_bits(const SurfaceLattice& lattice, uint cell, uint lamp) const {
-        const uint words = visibility_words(uint(scene_.lights.size()));
+        const uint length = visibility_row_length(uint(scene_.lights.size()));
         CornerBits bits;
         for (uint corner : {cell, cell + 1, cell + lattice.columns, cell + lattice.columns + 1}) {
-            const uint node = visible_lamps_[corner * words + visibility_word(lamp)] >> visibility_shift(lamp);
+            const uint node = visible_lamps_[corner * length + visibility_column(lamp)] >> visibility_shift(lamp);
             bits.around |= node & (some_visible | some_hidden);
             bits.own |= (node >> own_shift) & (some_visible | some_hidden);
         }

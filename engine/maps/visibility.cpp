@@ -46,27 +46,27 @@ class LampRays {
 
 /// Fills the bits of all nodes of a lattice: own[node] as the node's own bits, joined with those of its 3 x 3
 /// neighbours as the bits of its surroundings.
-void spread(const SurfaceLattice& lattice, uint words, const std::vector<uint>& own, std::vector<uint>& joined) {
+void spread(const SurfaceLattice& lattice, uint length, const std::vector<uint>& own, std::vector<uint>& joined) {
     const int columns = int(lattice.columns), rows = int(lattice.rows);
-    for (uint i = lattice.first_node * words; i < (lattice.first_node + lattice.columns * lattice.rows) * words; ++i)
+    for (uint i = lattice.first_node * length; i < (lattice.first_node + lattice.columns * lattice.rows) * length; ++i)
         joined[i] |= own[i] << own_shift;
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x)
             for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, rows - 1); ++ny)
                 for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, columns - 1); ++nx)
-                    for (uint w = 0; w < words; ++w)
-                        joined[(lattice.first_node + uint(y * columns + x)) * words + w] |=
-                            own[(lattice.first_node + uint(ny * columns + nx)) * words + w];
+                    for (uint c = 0; c < length; ++c)
+                        joined[(lattice.first_node + uint(y * columns + x)) * length + c] |=
+                            own[(lattice.first_node + uint(ny * columns + nx)) * length + c];
 }
 
 }  // namespace
 
 std::vector<uint> find_visibility(const Scene& scene, const RayCaster& caster, const Lattice& all) {
     const std::vector<NodePoint>& nodes = all.nodes;
-    const auto lamps = uint(scene.lights.size()), words = visibility_words(lamps);
+    const auto lamps = uint(scene.lights.size()), length = visibility_row_length(lamps);
     const LampRays rays(scene, caster);
     const SurfaceReader surfaces(scene);
-    std::vector<uint> own(nodes.size() * words, 0), joined(nodes.size() * words, 0);
+    std::vector<uint> own(nodes.size() * length, 0), joined(nodes.size() * length, 0);
     Progress progress("lamp visibility", nodes.size());
     parallel_for(all.surfaces.grids.size(), [&](size_t m) {
         const SurfaceLattice& lattice = all.surfaces.grids[m].lattice;
@@ -77,10 +77,10 @@ std::vector<uint> find_visibility(const Scene& scene, const RayCaster& caster, c
             const float side = dot(s.geometric_normal, all.surfaces.grids[m].normal) < 0 ? -1.0f : 1.0f;
             Rng rng(1, 1, n);
             for (uint lamp = 0; lamp < lamps; ++lamp)
-                own[n * words + visibility_word(lamp)] |= rays.look(lamp, {s.position, s.geometric_normal * side}, rng)
-                                                          << visibility_shift(lamp);
+                own[n * length + visibility_column(lamp)] |=
+                    rays.look(lamp, {s.position, s.geometric_normal * side}, rng) << visibility_shift(lamp);
         }
-        spread(lattice, words, own, joined);
+        spread(lattice, length, own, joined);
         progress.step(end - lattice.first_node);
     });
     return joined;

@@ -8,8 +8,8 @@
 
 namespace lw {
 
-/// Four bits per node and lamp (some_visible and after in shaders/photon_map.h), visibility_words(lamps) words per
-/// node; the surroundings are the 3 x 3 nodes around, so that narrow shadows are not missed. One ray per node for
+/// Four bits per node and lamp (some_visible and after in shaders/photon_map.h), visibility_row_length(lamps) numbers
+/// per node; the surroundings are the 3 x 3 nodes around, so that narrow shadows are not missed. One ray per node for
 /// point, spot and directional lamps, a few for meshes. Nodes without a point have no bits.
 std::vector<uint> find_visibility(const Scene& scene, const RayCaster& caster, const Lattice& lattice);
 

@@ -11,7 +11,7 @@
 namespace lw {
 namespace {
 
-constexpr size_t most_quoted = 20;  // characters of a file in a message
+constexpr size_t max_quoted = 20;  // characters of a file in a message
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -64,7 +64,7 @@ double NumberReader::number(const std::string& what) {
     double value = 0;
     const std::from_chars_result result = std::from_chars(first, last, value);
     if (result.ec != std::errc() || result.ptr != last || !std::isfinite(value))
-        fail(what + ": \"" + word.substr(0, most_quoted) + "\" is not a number");
+        fail(what + ": \"" + word.substr(0, max_quoted) + "\" is not a number");
     return value;
 }
 
@@ -96,7 +96,7 @@ std::string NumberReader::left_over() {
     const std::string first = next_word();
     size_t words = 1;
     for (skip_blanks(); !at_end(); skip_blanks(), ++words) next_word();
-    return "line " + std::to_string(first_line) + ": \"" + first.substr(0, most_quoted) + "\"" +
+    return "line " + std::to_string(first_line) + ": \"" + first.substr(0, max_quoted) + "\"" +
            (words == 1 ? " is" : " and " + std::to_string(words - 1) + " more are") +
            " left over after the last intensity";
 }

@@ -8,8 +8,8 @@
 namespace lw {
 namespace {
 
-constexpr uintmax_t most_bytes = 16'000'000;
-constexpr size_t most_files_looked_at = 10'000;
+constexpr uintmax_t max_bytes = 16'000'000;
+constexpr size_t max_files_looked_at = 10'000;
 
 void append_utf8(uint code, std::string& text) {
     const auto part = [&](uint bits) { text += char(0x80 | (bits & 0x3f)); };
@@ -69,7 +69,7 @@ std::string read_text_file(const std::filesystem::path& path) {
     std::error_code failure;
     const uintmax_t bytes = std::filesystem::file_size(path, failure);
     if (!stream || failure) throw Error(path.string() + ": cannot be opened");
-    if (bytes > most_bytes) throw Error(path.string() + ": larger than 16 MB");
+    if (bytes > max_bytes) throw Error(path.string() + ": larger than 16 MB");
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
@@ -82,7 +82,7 @@ std::filesystem::path file_in_folder(const std::filesystem::path& folder, const 
     std::filesystem::path found;
     size_t looked_at = 0;
     for (std::filesystem::directory_iterator i(folder, failure), end;
-         !failure && i != end && looked_at < most_files_looked_at; i.increment(failure), ++looked_at) {
+         !failure && i != end && looked_at < max_files_looked_at; i.increment(failure), ++looked_at) {
         const std::filesystem::path& path = i->path();
         if (upper_case(path.filename().string()) == upper_case(wanted) && (found.empty() || path < found)) found = path;
     }

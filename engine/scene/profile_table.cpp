@@ -10,7 +10,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double largest_error = 0.004;        // of the strongest intensity, in each of both angles
 constexpr double largest_flux_error = 0.0025;  // of the flux
-constexpr size_t most_entries = 2'700'000;
+constexpr size_t max_entries = 2'700'000;
 constexpr std::array<uint, 6> columns_to_try{144, 288, 360, 720, 1440, 3600};
 constexpr std::array<uint, 8> steps_to_try{360, 720, 1440, 1800, 3600, 7200, 14400, 18000};  // of gamma
 constexpr size_t fewest_steps_before_columns = 4;  // a table that is too large loses rows down to these, then columns
@@ -98,7 +98,7 @@ struct Resolution {
 
     uint column_count() const { return round ? 1 : columns_to_try[columns]; }
     uint row_count() const { return steps_to_try[steps] + 1; }
-    bool fits() const { return size_t(column_count()) * row_count() <= most_entries; }
+    bool fits() const { return size_t(column_count()) * row_count() <= max_entries; }
 };
 
 Resolution resolution_for(const Photometry& p) {

@@ -9,7 +9,8 @@
 namespace lw {
 namespace {
 
-/// Cosine to the axis, distributed as the falloff: inner cone uniform, penumbra cubic.
+/// The cosine to the axis that `u` picks, distributed as the intensity of the spot: uniform in the inner cone, and
+/// between the cones by the inverse of the integral of spot_falloff(), a cube root.
 float sample_spot_cosine(const Light& light, float u) {
     const float inner = 1 - light.cos_inner, rim = (light.cos_inner - light.cos_outer) / 3;
     const float x = u * (inner + rim);
@@ -45,7 +46,7 @@ float cosine_integral(const std::array<vec3, 4>& corners, uint count, vec3 norma
     return 0.5f * sum;
 }
 
-/// nullopt when no light comes that way.
+/// The sample of a light whose place is `position` (m); nullopt when no light comes that way.
 std::optional<Incident> incident(const LightSample& sample, vec3 position) {
     if (!(sample.to_light != vec3(0)) || !(sample.radiance.x + sample.radiance.y + sample.radiance.z > 0))
         return std::nullopt;
@@ -95,7 +96,6 @@ vec3 Emitters::even_irradiance(uint index, vec3 point, vec3 normal) const {
     return even_radiance_[index] * sum;
 }
 
-/// Uniform by area.
 Surface Emitters::point_of(const Light& light, float u, float v) const {
     float within = 0;
     const uint triangle = reader_.pick_emitter(light, u, within);
@@ -106,7 +106,6 @@ Surface Emitters::point_of(const Light& light, float u, float v) const {
     return s;
 }
 
-/// surface_at() for what a lamp that shines alike all over needs: its place and what it emits.
 Surface Emitters::even_point(uint triangle, vec2 barycentrics) const {
     const auto [p0, p1, p2] = triangle_corners(scene_, triangle);
     const Material& material = scene_.material_of(triangle);
@@ -148,8 +147,8 @@ Emission Emitters::emit(uint index, const std::array<float, 5>& u) const {
     return {};
 }
 
-/// A cell of the table in proportion to its flux, and a direction in it, uniform by solid angle: the flux of the photon
-/// makes up for what the table varies within the cell.
+/// u picks a cell of the table in proportion to its flux; what is left of u, and v, pick a direction in the cell,
+/// uniform by solid angle. The flux of the photon makes up for how the table varies within the cell.
 Emission Emitters::emit_profile(const Light& light, const ProfileCells& cells, float u, float v) const {
     const float total = cells.flux_below.back();
     const auto chosen = std::min(std::upper_bound(cells.flux_below.begin(), cells.flux_below.end(), u * total),
@@ -174,7 +173,7 @@ Emission Emitters::emit_from_mesh(const Light& light, const std::array<float, 5>
     const vec3 n = back ? -s.geometric_normal : s.geometric_normal;
     const vec3 relative = reader_.per_intensity(light, s.emissive);
     return {s.position, n, frame_around(n) * sample_cosine(u[2], u[3]),
-            relative * (lw_pi * reader_.area_of_mesh(light) * sides)};
+            relative * (lw_pi * reader_.area_of_surface(light) * sides)};
 }
 
 std::optional<Incident> Emitters::arrive(uint index, vec3 point, float u, float v) const {

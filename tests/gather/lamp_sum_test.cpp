@@ -46,7 +46,7 @@ struct Summed {
     Scene scene;
     RayCaster caster;
     PhotonMap map;
-    CellLight cells;
+    LatticeLight cells;
     Device device;
     LampSum sum;
     LampSumSetting setting;

@@ -289,13 +289,13 @@ TEST(Estimate, LightOfCellsHoldsSmallLampsAsTheyAre) {
     const Bvh bvh = build_bvh(scene);
     const std::vector<vec3> weights = lamp_powers(scene, {});
     const PhotonEstimator from_cells(scene, map, weights, {}, bvh), exact(scene, by_rays, weights, {}, bvh);
-    const CellLight cells(scene, map);
-    const uint lamps = uint(scene.lights.size()), stride = cell_words(lamps, map.has_marks()),
-               marks = stride - cell_lamp_words(lamps);
+    const LatticeLight cells(scene, map);
+    const uint lamps = uint(scene.lights.size()), length = lattice_row_length(lamps, map.has_marks()),
+               marks = length - lattice_lamp_columns(lamps);
     size_t held = 0;
     for (size_t cell = 0; cell < map.coverage.size(); ++cell)
-        for (uint word = marks; word < stride; ++word)
-            held += lamps_with(cells.words()[cell * stride + word], in_cell_light) != 0;
+        for (uint column = marks; column < length; ++column)
+            held += lamps_with(cells.rows()[cell * length + column], in_lattice_light) != 0;
     EXPECT_GT(held, map.coverage.size() / 4);
     const Difference difference = compare_everywhere(from_cells, exact, scene);
     EXPECT_LT(std::abs(difference.bias), 0.003);

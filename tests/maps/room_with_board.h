@@ -34,7 +34,8 @@ inline bool is_at_border(const BakedLab& lab, vec3 p, const SurfaceGrid& grid, c
 
 /// What a node's surroundings see of a lamp, and above own_shift what it sees itself.
 inline uint bits_of(const PhotonMap& map, uint lamps, uint node, uint lamp) {
-    return map.visible_lamps[node * visibility_words(lamps) + visibility_word(lamp)] >> visibility_shift(lamp) & 15u;
+    return map.visible_lamps[node * visibility_row_length(lamps) + visibility_column(lamp)] >> visibility_shift(lamp) &
+           15u;
 }
 
 }  // namespace lw::test

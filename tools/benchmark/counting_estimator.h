@@ -17,12 +17,12 @@ class Reads {
         const auto count = [this](Record kind) { return double(of(kind)); };
         return count(Record::surface) * (96 + sizeof(Material)) + count(Record::grid) * sizeof(SurfaceGrid) +
                count(Record::cell) * sizeof(uvec4) + count(Record::photon) * sizeof(PhotonPlace) +
-               4 * (count(Record::flux) + count(Record::word)) + 2 * count(Record::direction) +
+               4 * (count(Record::flux) + count(Record::number)) + 2 * count(Record::direction) +
                count(Record::box) * sizeof(BvhNode) + 40 * count(Record::triangle);
     }
 
   private:
-    mutable std::array<uint64_t, size_t(Record::word) + 1> counts_{};
+    mutable std::array<uint64_t, size_t(Record::number) + 1> counts_{};
 };
 
 using CountingEstimator = GatherText<Reads>;

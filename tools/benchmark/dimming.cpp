@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gather/live_view.h"
+#include "gather/frame_renderer.h"
 #include "gather/renderer.h"
 #include "gpu/commands.h"
 #include "scene/camera.h"
@@ -54,7 +54,7 @@ class Frames {
                               live_.record_visibility(commands, frame);
                               GatherSettings without_rays;
                               without_rays.shadow_rays = 0;
-                              live_.record_light(commands, frame, without_rays, LiveView::Side::a);
+                              live_.record_light(commands, frame, without_rays, FrameRenderer::Side::a);
                               live_.record_view(commands, {}, {}, 0);
                           });
                       }).seconds;
@@ -88,7 +88,7 @@ class Frames {
     const Device& device_;
     Bvh bvh_;
     Resident resident_;
-    LiveView live_;
+    FrameRenderer live_;
     Camera camera_;
     std::vector<vec3> factors_;
 };

@@ -13,12 +13,12 @@
 
 namespace lw {
 
-class LiveView {
+class FrameRenderer {
   public:
     enum class Side { a, b };
 
     /// Device and resident scene must outlive it. Throws Error when the size is beyond the device.
-    LiveView(const Device& device, const Resident& resident, vk::Extent2D size);
+    FrameRenderer(const Device& device, const Resident& resident, vk::Extent2D size);
 
     vk::Extent2D size() const { return size_; }
     /// Records the visibility pass. `frame` may have fewer pixels than size().

@@ -1,4 +1,4 @@
-#include "gather/live_view.h"
+#include "gather/frame_renderer.h"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace lw {
 
 using Stage = vk::PipelineStageFlagBits2;
 
-LiveView::LiveView(const Device& device, const Resident& resident, vk::Extent2D size)
+FrameRenderer::FrameRenderer(const Device& device, const Resident& resident, vk::Extent2D size)
     : device_(&device),
       resident_(&resident),
       size_(fit_pictures(device, resident, size, 2)),
@@ -18,19 +18,19 @@ LiveView::LiveView(const Device& device, const Resident& resident, vk::Extent2D 
       b_(device, visibility_.texture(), resident),
       view_(device, visibility_.texture(), a_, b_) {}
 
-void LiveView::record_visibility(vk::CommandBuffer commands, const Frame& frame) const {
+void FrameRenderer::record_visibility(vk::CommandBuffer commands, const Frame& frame) const {
     stage_barrier(commands, Stage::eAllCommands, Stage::eAllCommands);  // the frame before still reads the pictures
     visibility_.record(commands, frame);
 }
 
-GatherPass& LiveView::pass_for(const GatherSettings& settings) {
+GatherPass& FrameRenderer::pass_for(const GatherSettings& settings) {
     std::unique_ptr<GatherPass>& pass = passes_[pipeline_settings(settings)];
     if (!pass) pass = std::make_unique<GatherPass>(*device_, *resident_, a_, settings);
     return *pass;
 }
 
-void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings, Side side,
-                            uint lamps, Rows rows) {
+void FrameRenderer::record_light(vk::CommandBuffer commands, const Frame& frame, const GatherSettings& settings,
+                                 Side side, uint lamps, Rows rows) {
     stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
     GatherSettings gather = settings;
     Frame sample = frame;
@@ -42,13 +42,13 @@ void LiveView::record_light(vk::CommandBuffer commands, const Frame& frame, cons
                             rows);
 }
 
-void LiveView::record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {
+void FrameRenderer::record_view(vk::CommandBuffer commands, const ViewKind& kind, const ViewPush& push, uint slot) {
     stage_barrier(commands, Stage::eAllCommands, Stage::eComputeShader);
     view_.record(commands, kind, push, slot);
     stage_barrier(commands, Stage::eAllCommands, Stage::eTransfer | Stage::eHost);
 }
 
-Image LiveView::read_values(const Camera& camera, vk::Extent2D picture_size, uint samples, uint fresh_rows) const {
+Image FrameRenderer::read_values(const Camera& camera, vk::Extent2D picture_size, uint samples, uint fresh_rows) const {
     const std::vector<VisibleSample> whole = visibility_.read_samples();
     std::vector<VisibleSample> visible;
     for (uint y = 0; y < picture_size.height; ++y)
