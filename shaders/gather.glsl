@@ -101,9 +101,7 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
         float reached = max(min(left, right), 0.0f);
         if (reached * reached >= bound || covers_grid(grid, cell, ring)) break;
     }
-    Gathered sum;
-    sum.radiance = vec3(0.0f);
-    sum.irradiance = vec3(0.0f);
+    Gathered sum = no_light();
     bool full = count == k;
     float radius_squared = max(full ? heap_distance[0] : grid.radius * grid.radius, 1e-12f * grid.radius * grid.radius);
     sum.radius = sqrt(radius_squared);

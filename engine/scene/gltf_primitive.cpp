@@ -152,24 +152,32 @@ void read_optional(const AttributeReader& reader, const std::vector<uint32_t>& k
     if (p.tangents.empty() && !uv.empty()) p.tangents = make_tangents(p.positions, p.normals, uv, p.triangles);
 }
 
-/// Adds the weighted displacements of one attribute of all morph targets.
-template <class V>
-void add_morph(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& name,
-               const std::vector<double>& weights, const std::vector<uint32_t>& kept, size_t vertex_count,
-               const std::string& where, std::vector<V>& values) {
-    if (values.empty()) return;
-    for (size_t t = 0; t < std::min(weights.size(), primitive.targets.size()); ++t) {
-        if (weights[t] == 0) continue;
-        const std::string target = where + ": morph target " + std::to_string(t);
-        const std::vector<vec3> moves =
-            AttributeReader(file, primitive.targets[t], target).gather<3>(name, 3, kept, vertex_count);
-        for (size_t i = 0; i < moves.size(); ++i) {
-            values[i].x += float(weights[t]) * moves[i].x;
-            values[i].y += float(weights[t]) * moves[i].y;
-            values[i].z += float(weights[t]) * moves[i].z;
+/// The morph targets of a primitive, and how much of each is added.
+struct MorphTargets {
+    const GltfFile& file;
+    const tinygltf::Primitive& primitive;
+    const std::string& where;            // the primitive, for messages
+    const std::vector<double>& weights;  // per target
+    const std::vector<uint32_t>& kept;   // vertices of the file that are used
+    size_t vertex_count;                 // of the file
+
+    /// Adds the weighted displacements of one attribute of all targets; `values`: one per kept vertex, or none.
+    template <class V>
+    void displace(const std::string& name, std::vector<V>& values) const {
+        if (values.empty()) return;
+        for (size_t t = 0; t < std::min(weights.size(), primitive.targets.size()); ++t) {
+            if (weights[t] == 0) continue;
+            const std::string target = where + ": morph target " + std::to_string(t);
+            const std::vector<vec3> moves =
+                AttributeReader(file, primitive.targets[t], target).gather<3>(name, 3, kept, vertex_count);
+            for (size_t i = 0; i < moves.size(); ++i) {
+                values[i].x += float(weights[t]) * moves[i].x;
+                values[i].y += float(weights[t]) * moves[i].y;
+                values[i].z += float(weights[t]) * moves[i].z;
+            }
         }
     }
-}
+};
 
 /// The joints and weights of the kept vertices; a vertex without weight follows its first joint.
 std::vector<JointWeights> read_joints(const GltfFile& file, const AttributeReader& reader,
@@ -220,15 +228,16 @@ LocalPrimitive decode_primitive(GltfFile& file, size_t mesh, size_t index, const
         const float* v = positions.row(vertex);
         p.positions.emplace_back(v[0], v[1], v[2]);
     }
-    add_morph(file, source, "POSITION", pose.morph_weights, kept, positions.count, where, p.positions);
+    const MorphTargets morph{file, source, where, pose.morph_weights, kept, positions.count};
+    morph.displace("POSITION", p.positions);
     for (size_t i = 0; i < kept.size(); ++i)
         if (!is_finite(p.positions[i]))
             file.fail(where + ": the position of vertex " + std::to_string(kept[i]) + " is not finite");
     p.normals = reader.gather<3>("NORMAL", 3, kept, positions.count);
-    add_morph(file, source, "NORMAL", pose.morph_weights, kept, positions.count, where, p.normals);
+    morph.displace("NORMAL", p.normals);
     repair_normals(p);
     read_optional(reader, kept, positions.count, scene, p);
-    add_morph(file, source, "TANGENT", pose.morph_weights, kept, positions.count, where, p.tangents);
+    morph.displace("TANGENT", p.tangents);
     if (pose.is_skinned) p.joints = read_joints(file, reader, kept, positions.count, where);
     return p;
 }
