@@ -7,22 +7,10 @@
 #include <chrono>
 #include <thread>
 
-#include "programs/command.h"
+#include "programs/command_lines.h"
 
-namespace lw {
+namespace lw::test {
 namespace {
-
-using Words = std::vector<std::string>;
-
-std::string scene_path(const std::string& name) { return LUMENWALK_SOURCE_DIR "/data/" + name; }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-void expect_refusal(const Outcome& outcome, const std::string& named) {
-    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_TRUE(contains(outcome.err, named)) << outcome.err;
-}
 
 /// While it lives, files of this process and those it starts end at `bytes`, as on a full disk.
 class FullDisk {
@@ -262,4 +250,4 @@ TEST(FailingMachines, AnOddEnvironmentChangesNothing) {
 }
 
 }  // namespace
-}  // namespace lw
+}  // namespace lw::test

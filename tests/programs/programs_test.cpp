@@ -7,52 +7,11 @@
 #include <sstream>
 #include <thread>
 
-#include "image/exr.h"
-#include "programs/command.h"
+#include "programs/command_lines.h"
 #include "programs/lavapipe.h"
 
-namespace lw {
+namespace lw::test {
 namespace {
-
-using Words = std::vector<std::string>;
-
-std::string scene_path(const std::string& name) { return LUMENWALK_SOURCE_DIR "/data/" + name; }
-
-/// A short but complete command line about the scene (or picture) `input`, writing `output` and an extension.
-Words command_line(const std::string& program, const std::string& input, const std::string& output) {
-    if (program == "bake") return {input, "-o", output + ".pmap", "--photons", "100"};
-    if (program == "screenshot") return {input, input + ".pmap", "-o", output + ".png", "--size", "8x8"};
-    if (program == "reference") return {input, "-o", output + ".exr", "--size", "8x8", "--samples", "1"};
-    return {input, input, "--difference", output + ".png"};
-}
-
-size_t count_lines(const std::string& text) { return size_t(std::count(text.begin(), text.end(), '\n')); }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-void expect_refusal(const Outcome& outcome, const std::string& named) {
-    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-    EXPECT_EQ(count_lines(outcome.err), 1u) << outcome.err;
-    EXPECT_TRUE(contains(outcome.err, named)) << outcome.err;
-}
-
-/// Copies a scene of data/ with one piece of its text replaced.
-std::string edited_scene(const TempFolder& folder, const std::string& name, const std::string& old_text,
-                         const std::string& new_text) {
-    std::string text = read_text(scene_path(name));
-    const size_t place = text.find(old_text);
-    if (place == std::string::npos) throw Error(name + ": has no " + old_text);
-    write_text(folder / name, text.replace(place, old_text.size(), new_text));
-    return folder / name;
-}
-
-void expect_success(const Outcome& outcome) { ASSERT_EQ(outcome.exit_code, 0) << outcome.err; }
-
-void bake(const std::string& scene, const std::string& map, const Words& more = {"--photons", "5000"}) {
-    Words words{scene, "-o", map};
-    words.insert(words.end(), more.begin(), more.end());
-    expect_success(run("bake", words));
-}
 
 class EachProgram : public testing::TestWithParam<std::string> {};
 
@@ -246,66 +205,6 @@ TEST(Screenshot, WithoutAMapTellsHowToMakeOne) {
     EXPECT_EQ(folder.names(), Words{"cube.gltf"});
 }
 
-TEST(Power, OfAnUnknownLampIsRefusedWithTheNamesThereAre) {
-    const TempFolder folder;
-    for (const char* program : {"screenshot", "reference"}) {
-        Words words = command_line(program, scene_path("cornell.gltf"), folder / "made");
-        words.insert(words.end(), {"--power", "moon=2"});
-        const Outcome outcome = run(program, words);
-        expect_refusal(outcome, "moon");
-        EXPECT_TRUE(contains(outcome.err, "ceiling_lamp")) << outcome.err;
-    }
-    EXPECT_EQ(folder.names(), Words{});
-}
-
-TEST(Power, WithAFactorThatIsNoneIsRefused) {
-    for (const char* factor : {"", "much", "-1", "nan", "2x"})
-        expect_refusal(
-            run("screenshot", {scene_path("cube.gltf"), "-o", "unused.png", "--power", std::string("lamp=") + factor}),
-            "--power lamp=");
-}
-
-/// R, G, B and illuminance of a small picture from a fresh map.
-Image baked_picture(const TempFolder& folder, const std::string& scene, const Words& more) {
-    bake(scene, folder / "map", {"--photons", "20000"});
-    Words words{scene,      folder / "map", "-o", folder / "picture.exr", "--size", "32x24", "--device",
-                "llvmpipe", "--frames",     "1",  "--validation"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Outcome outcome = run("screenshot", words);
-    if (outcome.exit_code != 0) throw Error(outcome.err);
-    return read_exr(folder / "picture.exr");
-}
-
-struct DoubledLamp {
-    const char *scene, *lamp, *strength, *doubled;
-};
-
-void PrintTo(const DoubledLamp& lamp, std::ostream* out) { *out << lamp.scene; }
-
-class Doubling : public testing::TestWithParam<DoubledLamp> {};
-
-INSTANTIATE_TEST_SUITE_P(Lamps, Doubling,
-                         testing::Values(DoubledLamp{"cube.gltf", "lamp", "\"intensity\": 100", "\"intensity\": 200"},
-                                         DoubledLamp{"cornell.gltf", "ceiling_lamp", "\"emissiveStrength\": 1000",
-                                                     "\"emissiveStrength\": 2000"}),
-                         [](const auto& lamp) { return lamp.param.lamp; });
-
-TEST_P(Doubling, ALampByPowerEqualsASceneWithTwiceTheLamp) {
-    SKIP_WITHOUT_LAVAPIPE();
-    const TempFolder folder;
-    const DoubledLamp& lamp = GetParam();
-    const Image once = baked_picture(folder, scene_path(lamp.scene), {});
-    const Image by_power = baked_picture(folder, scene_path(lamp.scene), {"--power", std::string(lamp.lamp) + "=2"});
-    const Image by_scene = baked_picture(folder, edited_scene(folder, lamp.scene, lamp.strength, lamp.doubled), {});
-    for (const char* channel : {"R", "G", "B", "illuminance"}) {
-        for (size_t i = 0; i < once.pixel_count(); ++i) {
-            const float expected = by_scene.find(channel)->values[i];
-            ASSERT_NEAR(by_power.find(channel)->values[i], expected, 1e-5f * expected) << channel << " " << i;
-            ASSERT_NEAR(2 * once.find(channel)->values[i], expected, 1e-5f * expected) << channel << " " << i;
-        }
-    }
-}
-
 TEST(Screenshot, ListsCamerasLampsAndDevices) {
     EXPECT_EQ(run("screenshot", {scene_path("apartment.glb"), "--list-cameras"}).out, "living\nkitchen\ncorridor\n");
     EXPECT_EQ(run("screenshot", {scene_path("cornell.gltf"), "--list-lights"}).out, "ceiling_lamp\n");
@@ -342,4 +241,4 @@ TEST(Compare, RefusesPicturesOfDifferentSizeNamingBoth) {
 }
 
 }  // namespace
-}  // namespace lw
+}  // namespace lw::test

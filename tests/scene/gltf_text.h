@@ -99,6 +99,16 @@ std::string load_error_of(const Load& load) {
     return message;
 }
 
+/// The same of a document.
+inline std::string refusal_of(const GltfText& g) {
+    return load_error_of([&] { g.load(); });
+}
+
+inline void add_material(GltfText& g, const Json& material) {
+    g.doc["materials"] = Json::array({material});
+    g.primitive()["material"] = 0;
+}
+
 /// The unit normal of the front of a triangle.
 inline vec3 front_of(const Scene& s, size_t triangle) { return normalize(triangle_product(s, triangle)); }
 
