@@ -117,5 +117,23 @@ TEST(PhotonSums, AreNothingFarFromAllPhotons) {
     }
 }
 
+/// Equal terms are the worst for a sum in floats: every addition is rounded the same way.
+TEST(PhotonSums, OfAMillionPhotonsAtOnePlaceAreExact) {
+    constexpr size_t count = 1'000'000;
+    const Photon photon{vec3(1, 0, 1), vec3(1.1f), vec3(0, 1, 0), 0, pack_origin(0, path_direct, false)};
+    PhotonMap map;
+    map.places.resize(count), map.fluxes.resize(count);
+    SurfaceGrid& grid = map.grids.emplace_back();
+    grid.u_axis = vec3(0, 0, 1), grid.v_axis = vec3(1, 0, 0), grid.normal = vec3(0, 1, 0);
+    grid.radius = 0.5f;
+    map.cell_starts = fill_grid(grid, {photon}, std::vector<uint>(count, 0), 0, map);
+    map.cell_starts.push_back(uint(count));
+    std::vector<vec4> parts(PhotonSums::sums_per_lamp, vec4(0));
+    PhotonSums(map, grid, 0.5f).add(position_in_grid(grid, photon.position), 0.5f, parts);
+    double sum = 0;
+    for (const vec4& part : parts) sum += double(part.x);
+    EXPECT_NEAR(sum / (count * double(unpack_rgb9e5(map.fluxes[0]).x)), 1, 1e-4);
+}
+
 }  // namespace
 }  // namespace lw

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/random.h"
@@ -134,6 +135,34 @@ TEST(EmissionGuide, SendsPhotonsToOneUsefulCellAndItsNeighboursAlike) {
     constexpr double expected = (1.0 / 9 + floor) / (1 + 0.03);  // of all photons
     for (size_t column : {40, 0, 63})                            // the second number goes around the disc
         for (double share : shares_around(20, column)) EXPECT_NEAR(share, expected, 0.003) << column;
+}
+
+/// The last number, from 0 to 1, at which `weight` is still at most `most`, as it is at `from`.
+template <class Weight>
+float last_at_most(float most, float from, const Weight& weight) {
+    float low = from, high = 1;
+    while (std::nextafter(low, 1.0f) < high) {
+        const float middle = low + 0.5f * (high - low);
+        (weight(middle) <= most ? low : high) = middle;
+    }
+    return low;
+}
+
+TEST(EmissionGuide, TheLastNumberOfACellStaysInIt) {
+    for (const size_t useful : {2, 9, 20, 28}) {  // blurred: of the cells around it too
+        const EmissionGuide guide =
+            guide_of([=](size_t row, size_t column) { return row == useful && column == useful ? 1.0 : 0.0; });
+        const auto moved = [&](float u, float v) {
+            Numbers numbers{u, v, 0, 0, 0};
+            const float weight = guide.warp(numbers);
+            return std::pair(numbers, weight);
+        };
+        const float least = 1.1f * moved(0.5f, 0.5f).second;
+        const float u = last_at_most(least, 0.5f, [&](float x) { return moved(x, 0.5f).second; });
+        const float v = last_at_most(least, 0.5f, [&](float x) { return moved(0.5f, x).second; });
+        EXPECT_LT(moved(u, 0.5f).first[0] * side, float(useful + 2)) << useful;
+        EXPECT_LT(moved(0.5f, v).first[1] * side, float(useful + 2)) << useful;
+    }
 }
 
 }  // namespace
