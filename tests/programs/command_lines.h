@@ -30,7 +30,7 @@ inline void expect_refusal(const Outcome& outcome, const std::string& named) {
 
 /// Copies a scene of data/ with one piece of its text replaced.
 inline std::string edited_scene(const TempFolder& folder, const std::string& name, const std::string& old_text,
-                         const std::string& new_text) {
+                                const std::string& new_text) {
     std::string text = read_text(scene_path(name));
     const size_t place = text.find(old_text);
     if (place == std::string::npos) throw Error(name + ": has no " + old_text);

@@ -113,7 +113,8 @@ TEST(GltfCompression, ADamagedOrNewerMeshoptStreamIsRefused) {
             << size;
     GltfText g = meshopt_file(whole);
     g.doc["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["byteLength"] = 100000;
-    EXPECT_NE(refusal_of(g).find("buffer view 0: reaches past the end of buffer 0"), std::string::npos) << refusal_of(g);
+    EXPECT_NE(refusal_of(g).find("buffer view 0: reaches past the end of buffer 0"), std::string::npos)
+        << refusal_of(g);
 }
 
 TEST(GltfCompression, AFallbackBufferNeedsNoBytes) {

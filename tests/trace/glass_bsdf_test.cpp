@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trace/bsdf.h"
+#include "trace/chi_square.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -145,46 +146,15 @@ TEST(Glass, BsdfOfRoughGlassIsReciprocal) {
     EXPECT_GT(compared, 200);
 }
 
-/// Chi-square of the sampled directions over the whole sphere against bsdf_pdf.
-double chi_square(const Surface& s, vec3 view, int& degrees) {
-    const Scene empty;
-    const SurfaceReader reader(empty);
-    constexpr int rows = 16, columns = 16, samples = 300000, fine = 24;
-    std::array<double, rows * columns> counted{}, expected{};
-    Rng rng(7, 1, 0);
-    for (int i = 0; i < samples; ++i) {
-        const auto next = sample_bsdf(reader, s, view, Carries::radiance, rng);
-        if (!next || next->specular) continue;
-        const int row = std::clamp(int((next->direction.z + 1) / 2 * rows), 0, rows - 1);
-        const double phi = std::atan2(double(next->direction.y), double(next->direction.x)) / (2 * M_PI) + 0.5;
-        ++counted[size_t(row * columns + std::min(int(phi * columns), columns - 1))];
-    }
-    for (int r = 0; r < rows * fine; ++r)
-        for (int c = 0; c < columns * fine; ++c) {
-            const double z = (r + 0.5) / (rows * fine) * 2 - 1, phi = ((c + 0.5) / (columns * fine) - 0.5) * 2 * M_PI;
-            const double sine = std::sqrt(1 - z * z);
-            const vec3 to_light(float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(z));
-            expected[size_t((r / fine) * columns + c / fine)] +=
-                double(bsdf_pdf(reader, s, view, to_light)) * 4 * M_PI / (rows * fine * columns * fine) * samples;
-        }
-    double sum = 0;
-    degrees = -1;
-    for (size_t i = 0; i < counted.size(); ++i) {
-        if (expected[i] < 20) continue;
-        sum += (counted[i] - expected[i]) * (counted[i] - expected[i]) / expected[i];
-        ++degrees;
-    }
-    return sum;
-}
-
 TEST(Glass, DirectionsThroughRoughGlassFollowTheirPdf) {
     for (bool thin : {true, false})
         for (float roughness : {0.6f, 0.9f})
             for (vec3 view : {normalize(vec3(0.2f, 0.1f, 1)), normalize(vec3(0.2f, 0.1f, -1))}) {
-                int degrees = 0;
-                const double chi2 = chi_square(dielectric(roughness, 0.7f, thin), view, degrees);
-                EXPECT_GT(degrees, 20);
-                EXPECT_LT(chi2, degrees + 6 * std::sqrt(2.0 * degrees)) << roughness << thin << view.z;
+                const Scene empty;
+                test::ChiSquare chi2{.low = -1, .rows = 16, .columns = 16, .samples = 300000};
+                chi2.test(SurfaceReader(empty), dielectric(roughness, 0.7f, thin), view);
+                EXPECT_GT(chi2.degrees, 20);
+                EXPECT_LT(chi2.sum, chi2.degrees + 6 * std::sqrt(2.0 * chi2.degrees)) << roughness << thin << view.z;
             }
 }
 

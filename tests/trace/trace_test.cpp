@@ -6,6 +6,7 @@
 
 #include "scene/gltf.h"
 #include "trace/bsdf.h"
+#include "trace/chi_square.h"
 #include "trace/path_tracer.h"
 #include "trace/sampling.h"
 
@@ -27,47 +28,17 @@ Surface material(float metallic, float roughness, float specular, vec3 color) {
     return s;
 }
 
-/// Chi-square of the directions of sample_bsdf against bsdf_pdf, cos(theta) x phi bins.
-double chi_square(const SurfaceReader& reader, const Surface& s, vec3 view, int& degrees) {
-    constexpr int rows = 10, columns = 20, samples = 400000, fine = 24;
-    std::array<double, rows * columns> counted{}, expected{};
-    Rng rng(7, 1, 0);
-    for (int i = 0; i < samples; ++i) {
-        const auto scatter = sample_bsdf(reader, s, view, Carries::radiance, rng);
-        if (!scatter || scatter->specular) continue;
-        const int row = std::min(int(scatter->direction.z * rows), rows - 1);
-        const double phi = std::atan2(double(scatter->direction.y), double(scatter->direction.x)) / (2 * M_PI) + 0.5;
-        ++counted[size_t(row * columns + std::min(int(phi * columns), columns - 1))];
-    }
-    for (int r = 0; r < rows * fine; ++r)
-        for (int c = 0; c < columns * fine; ++c) {
-            const double z = (r + 0.5) / (rows * fine), phi = ((c + 0.5) / (columns * fine) - 0.5) * 2 * M_PI;
-            const double sine = std::sqrt(1 - z * z);
-            const vec3 to_light(float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(z));
-            expected[size_t((r / fine) * columns + c / fine)] +=
-                double(bsdf_pdf(reader, s, view, to_light)) * 2 * M_PI / (rows * fine * columns * fine) * samples;
-        }
-    double sum = 0;
-    degrees = -1;
-    for (size_t i = 0; i < counted.size(); ++i) {
-        if (expected[i] < 20) continue;
-        sum += (counted[i] - expected[i]) * (counted[i] - expected[i]) / expected[i];
-        ++degrees;
-    }
-    return sum;
-}
-
 TEST(Sampling, DirectionsOfTheBsdfFollowTheirPdf) {
     Scene empty;
     const SurfaceReader reader(empty);
     const vec3 view = normalize(vec3(0.5f, 0.2f, 0.7f));
     for (const Surface& s : {material(0, 1, 0, vec3(0.5f)), material(1, 0.5f, 1, vec3(0.8f)),
                              material(0, 0.6f, 1, vec3(0.3f)), material(0.5f, 0.8f, 1, vec3(0.6f))}) {
-        int degrees = 0;
-        const double chi2 = chi_square(reader, s, view, degrees);
-        const double limit = degrees + 5 * std::sqrt(2.0 * degrees);
-        EXPECT_GT(degrees, 20);
-        EXPECT_LT(chi2, limit) << "roughness " << s.roughness << " metallic " << s.metallic;
+        test::ChiSquare chi2{.low = 0, .rows = 10, .columns = 20, .samples = 400000};
+        chi2.test(reader, s, view);
+        EXPECT_GT(chi2.degrees, 20);
+        EXPECT_LT(chi2.sum, chi2.degrees + 5 * std::sqrt(2.0 * chi2.degrees))
+            << "roughness " << s.roughness << " metallic " << s.metallic;
     }
 }
 
