@@ -20,8 +20,8 @@ struct LaidFloor {
     explicit LaidFloor(const std::vector<vec3>& above) {
         std::vector<Photon> photons;
         for (vec3 from : above) photons.push_back(*photon_below(caster, from, 0));
-        lattice = lay_lattice(scene, caster, partition,
-                              sort_into_grids({scene, caster, partition, photons}, {}).surfaces);
+        lattice =
+            lay_lattice(scene, caster, partition, sort_into_grids({scene, caster, partition, photons}, {}).surfaces);
     }
     /// Calls visit(place on the floor, node) for all nodes that are over a triangle.
     template <class Visit>
@@ -95,8 +95,8 @@ TEST(Lattice, NodesKeepTheCoverageOfTheirSurroundings) {
         const float to_next = std::max(std::min(p.x, 6 - p.x), std::min(p.z, 6 - p.z));
         if (to_next < radius) return;  // in a corner
         for (const float part : {0.25f, 0.5f, 0.75f, 1.0f})
-            EXPECT_NEAR(unpack_coverage(floor.lattice.coverage[n], part), part_before(double(to_edge / (part * radius))),
-                        0.01)
+            EXPECT_NEAR(unpack_coverage(floor.lattice.coverage[n], part),
+                        part_before(double(to_edge / (part * radius))), 0.01)
                 << p.x << " " << p.z;
         ++(to_edge > radius ? inside : at_edge);
     });

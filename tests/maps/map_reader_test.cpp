@@ -49,11 +49,11 @@ const FloorMap& scattered_floor() {
     return floor;
 }
 
-std::vector<Photon> in_rows(const RayCaster& caster) {
-    return photons_in_rows(caster, 0, 6, 0.02f, 0, path_indirect);
-}
+std::vector<Photon> in_rows(const RayCaster& caster) { return photons_in_rows(caster, 0, 6, 0.02f, 0, path_indirect); }
 
-uint triangle_at(const FloorMap& floor, vec3 p) { return floor.caster.nearest(p + vec3(0, 1, 0), vec3(0, -1, 0))->triangle; }
+uint triangle_at(const FloorMap& floor, vec3 p) {
+    return floor.caster.nearest(p + vec3(0, 1, 0), vec3(0, -1, 0))->triangle;
+}
 
 TEST(MapReader, VisitsThePhotonsOfTheSameSideWithinTheRadius) {
     const FloorMap& floor = scattered_floor();
@@ -176,7 +176,7 @@ TEST(GridReader, RowsAreClippedToTheGrid) {
 
 TEST(GridReader, RingsBeginWhereTheyMeetTheGridAndEndWhereTheyCoverIt) {
     const SixCells six;
-    EXPECT_EQ(six.reader.cell_of(vec3(1.5f, -0.1f, 0), six.grid), ivec2(1, -1));
+    EXPECT_EQ(six.reader.grid_cell_of(vec3(1.5f, -0.1f, 0), six.grid), ivec2(1, -1));
     EXPECT_EQ(six.reader.first_ring(six.grid, ivec2(1, 1)), 0);
     EXPECT_EQ(six.reader.first_ring(six.grid, ivec2(-2, 1)), 2);
     EXPECT_EQ(six.reader.first_ring(six.grid, ivec2(7, 3)), 5);

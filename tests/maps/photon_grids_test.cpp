@@ -47,8 +47,8 @@ void for_each_reference(const SurfaceGrids& surfaces, const PhotonRecords& recor
     for (size_t m = 0; m < surfaces.grids.size(); ++m) {
         const SurfaceGrid& grid = surfaces.grids[m];
         for (uint cell = 0; cell < grid.columns * grid.rows; ++cell)
-            for (uint i = records.cell_starts[grid.first_cell + cell]; i < records.cell_starts[grid.first_cell + cell + 1];
-                 ++i)
+            for (uint i = records.cell_starts[grid.first_cell + cell];
+                 i < records.cell_starts[grid.first_cell + cell + 1]; ++i)
                 visit(grid, m, cell, i);
     }
 }

@@ -21,8 +21,8 @@ struct CausticFloor {
     CausticFloor(float side, float apart, float lux, uint record = 0) {
         const auto below = [&](float x, float z) { return *photon_below(caster, vec3(x, 1, z), 0); };
         const std::vector<Photon> others{below(1, 5), below(5, 1)};
-        lattice = lay_lattice(scene, caster, partition,
-                              sort_into_grids({scene, caster, partition, others}, {}).surfaces);
+        lattice =
+            lay_lattice(scene, caster, partition, sort_into_grids({scene, caster, partition, others}, {}).surfaces);
         std::vector<Photon> photons =
             photons_in_rows(caster, 3 - 0.5f * side, 3 + 0.5f * side, apart, lamp, path_caustic);
         for (Photon& p : photons) p.flux *= lux;

@@ -1,5 +1,5 @@
 // What pixels read of the cells of lattices: the light at their corners, and what is known of each lamp.
-#include "maps/cells.h"
+#include "maps/lattice_light.h"
 
 #include <gtest/gtest.h>
 
@@ -19,12 +19,12 @@ struct BoardCells {
     const BakedLab& lab = room_with_board();
     const PhotonMap& map = lab.map;
     uint lamps = uint(lab.scene.lights.size()), nodes = uint(map.coverage.size());
-    uint stride = cell_words(lamps, map.has_marks());
-    CellLight cells{lab.scene, map};
+    uint row_length = lattice_row_length(lamps, map.has_marks());
+    LatticeLight cells{lab.scene, map};
 
     uint bits_at(uint cell, uint lamp) const {
-        const uint word = cells.words()[cell * stride + (map.has_marks() ? 1 : 0) + cell_lamp_word(lamp)];
-        return cell_lamp_bits(word, cell_lamp_shift(lamp));
+        const uint bits = cells.rows()[cell * row_length + (map.has_marks() ? 1 : 0) + lattice_lamp_column(lamp)];
+        return lattice_lamp_bits(bits, lattice_lamp_shift(lamp));
     }
     /// Calls visit(grid, cell, its corners).
     template <class Visit>
@@ -44,9 +44,8 @@ struct BoardCells {
                                 PlaneGrids(lab.scene, map).height(size_t(&grid - map.grids.data())));
     }
     const ShadowMask* mask_of(uint cell, uint lamp) const {
-        const auto found = std::find_if(map.shadow_masks.begin(), map.shadow_masks.end(), [&](const ShadowMask& m) {
-            return m.cell == cell && m.lamp == lamp;
-        });
+        const auto found = std::find_if(map.shadow_masks.begin(), map.shadow_masks.end(),
+                                        [&](const ShadowMask& m) { return m.cell == cell && m.lamp == lamp; });
         return found == map.shadow_masks.end() ? nullptr : &*found;
     }
 };
@@ -65,7 +64,7 @@ double lux_at(const Light& lamp, vec3 position, vec3 normal) {
     return glm::dot(path, glm::dvec3(normal)) / std::pow(glm::length(path), 3);
 }
 
-TEST(Cells, CornersHaveTheirNodesIrradianceTimesPowersAndTheHeldLamps) {
+TEST(LatticeLight, CornersHaveTheirNodesIrradianceTimesPowersAndTheHeldLamps) {
     const BoardCells& board = board_cells();
     const std::vector<vec3> powers{vec3(100, 50, 20), vec3(3, 70, 9), vec3(40)};
     std::vector<uvec4> light;
@@ -80,7 +79,7 @@ TEST(Cells, CornersHaveTheirNodesIrradianceTimesPowersAndTheHeldLamps) {
             for (uint lamp = 0; lamp < board.lamps; ++lamp) {
                 expected += glm::dvec3(unpack_rgb9e5(board.map.irradiance[lamp * board.nodes + node])) /
                             double(board.map.irradiance_scale) * glm::dvec3(powers[lamp]);
-                if (!(board.bits_at(cell, lamp) & in_cell_light)) continue;
+                if (!(board.bits_at(cell, lamp) & in_lattice_light)) continue;
                 const vec2 steps(float(i % grid.lattice.columns), float(i / grid.lattice.columns));
                 const vec3 at = point_on_lattice(grid, steps, planes.height(size_t(&grid - board.map.grids.data())));
                 expected += lux_at(board.lab.scene.lights[lamp], at, grid.normal) * glm::dvec3(powers[lamp]);
@@ -95,7 +94,7 @@ TEST(Cells, CornersHaveTheirNodesIrradianceTimesPowersAndTheHeldLamps) {
     EXPECT_GT(held, 1000u);
 }
 
-TEST(Cells, HoldALampWhereAllCornersSeeItFromTwelveSteps) {
+TEST(LatticeLight, HoldALampWhereAllCornersSeeItFromTwelveSteps) {
     const BoardCells& board = board_cells();
     size_t held = 0, left = 0;
     board.for_each_cell([&](const SurfaceGrid& grid, uint cell, const std::array<uint, 4>& corners) {
@@ -114,7 +113,7 @@ TEST(Cells, HoldALampWhereAllCornersSeeItFromTwelveSteps) {
                 expected &= cosine >= light.cos_inner;
             }
             if (is_close) continue;
-            EXPECT_EQ((board.bits_at(cell, lamp) & in_cell_light) != 0, expected) << cell << " " << lamp;
+            EXPECT_EQ((board.bits_at(cell, lamp) & in_lattice_light) != 0, expected) << cell << " " << lamp;
             ++(expected ? held : left);
         }
     });
@@ -122,7 +121,7 @@ TEST(Cells, HoldALampWhereAllCornersSeeItFromTwelveSteps) {
     EXPECT_GT(left, 200u);
 }
 
-TEST(Cells, KnowWhichLampsTheirCornersSee) {
+TEST(LatticeLight, KnowWhichLampsTheirCornersSee) {
     const BoardCells& board = board_cells();
     size_t seen = 0, hidden = 0, mixed = 0;
     board.for_each_cell([&](const SurfaceGrid&, uint cell, const std::array<uint, 4>& corners) {
@@ -145,11 +144,11 @@ TEST(Cells, KnowWhichLampsTheirCornersSee) {
     EXPECT_GT(std::min({seen, hidden, mixed}), 50u);
 }
 
-TEST(Cells, LeaveLampsToRaysWhereMasksAreNeitherLitNorDark) {
+TEST(LatticeLight, LeaveLampsToRaysWhereMasksAreNeitherLitNorDark) {
     const BoardCells& board = board_cells();
     size_t masked = 0, settled = 0;
     for (uint cell = 0; cell < board.nodes; ++cell) {
-        uint next = board.cells.words()[cell * board.stride] >> first_mask_shift;
+        uint next = board.cells.rows()[cell * board.row_length] >> first_mask_shift;
         const bool is_first = masked == 0;  // of all cells with masks: if it has two, it begins with the second
         for (uint lamp = 0; lamp < board.lamps; ++lamp) {
             const ShadowMask* mask = board.mask_of(cell, lamp);
@@ -159,7 +158,7 @@ TEST(Cells, LeaveLampsToRaysWhereMasksAreNeitherLitNorDark) {
             if (!keeps) continue;
             const uvec4 expected(mask->lit_low, mask->lit_high, mask->tint, 0);
             EXPECT_TRUE(is_first || board.cells.masks().at(next) == expected) << cell << " " << lamp;
-            EXPECT_FALSE(board.bits_at(cell, lamp) & in_cell_light);
+            EXPECT_FALSE(board.bits_at(cell, lamp) & in_lattice_light);
             ++next, ++masked;
         }
     }
@@ -168,24 +167,24 @@ TEST(Cells, LeaveLampsToRaysWhereMasksAreNeitherLitNorDark) {
     EXPECT_GT(settled, 10u);
 }
 
-TEST(Cells, MarkCornersThatHoldCaustics) {
+TEST(LatticeLight, MarkCornersThatHoldCaustics) {
     const BoardCells& board = board_cells();
     PhotonMap map = board.map;
     map.smooth_caustics.assign((board.nodes + 31) / 32, 0);
     const uint node = map.grids[0].lattice.first_node + map.grids[0].lattice.columns + 1;
     map.smooth_caustics[node / 32] |= 1u << (node % 32);
-    const CellLight cells(board.lab.scene, map);
+    const LatticeLight cells(board.lab.scene, map);
     size_t marked = 0;
     board.for_each_cell([&](const SurfaceGrid&, uint cell, const std::array<uint, 4>& corners) {
         uint expected = 0;
         for (uint c = 0; c < 4; ++c) expected |= corners[c] == node ? 1u << c : 0;
-        EXPECT_EQ(cells.words()[cell * board.stride] & 15u, expected) << cell;
+        EXPECT_EQ(cells.rows()[cell * board.row_length] & 15u, expected) << cell;
         marked += expected != 0;
     });
     EXPECT_EQ(marked, 4u);
 }
 
-TEST(Cells, TheScaleBringsThePowersToOneAndTheDirectLightIntoRecords) {
+TEST(LatticeLight, TheScaleBringsThePowersToOneAndTheDirectLightIntoRecords) {
     const BoardCells& board = board_cells();
     float brightest = 0;
     for (uint bits : board.cells.direct().values) brightest = std::max(brightest, uintBitsToFloat(bits));
@@ -194,12 +193,12 @@ TEST(Cells, TheScaleBringsThePowersToOneAndTheDirectLightIntoRecords) {
     EXPECT_EQ(board.cells.scale_of(std::vector<vec3>(3, vec3(0))), room);
 }
 
-TEST(Cells, KnowNothingWherePhotonsHoldAllLight) {
+TEST(LatticeLight, KnowNothingWherePhotonsHoldAllLight) {
     const BoardCells& board = board_cells();
     PhotonMap map = board.map;
     map.visible_lamps.clear();
-    const CellLight cells(board.lab.scene, map);
-    EXPECT_TRUE(cells.words().empty());
+    const LatticeLight cells(board.lab.scene, map);
+    EXPECT_TRUE(cells.rows().empty());
     EXPECT_TRUE(cells.punctual().empty());
     std::vector<uvec4> light;
     const std::vector<vec3> powers(board.lamps, vec3(1));
