@@ -26,10 +26,10 @@ namespace {
 struct Options {
     std::string scene, map, output, camera, size, gather = "cached", device, ambiance, rays = "fastest";
     std::vector<std::string> powers, photometry;
-    unsigned neighbours = lw::GatherSettings{}.neighbours, samples = 1, frames = 3,
+    unsigned neighbours = lw::GatherSettings{}.neighbours, samples = 0, timings = 0,
              shadow_rays = lw::GatherSettings{}.shadow_rays, paths = lw::GatherSettings{}.paths;
     float followed_roughness = lw::GatherSettings{}.followed_roughness;
-    std::optional<float> exposure;
+    std::optional<float> exposure, error_percent;
     double device_memory_gb = 0;
     bool list_cameras = false, list_lights = false, list_devices = false, validation = false;
     bool lists() const { return list_cameras || list_lights || list_devices; }
@@ -67,16 +67,18 @@ void add_options(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--exposure", o.exposure, "EV100, the exposure of a .png; default: from the picture")
         ->check(lw::finite_number(-100, 100));
-    app.add_option("--samples", o.samples, "views averaged per pixel")
-        ->check(CLI::Range(1, 4096))
-        ->capture_default_str();
+    app.add_option("--samples", o.samples, "views averaged per pixel; default: 64, at most 4096 with --error")
+        ->check(CLI::Range(1, 4096));
+    app.add_option("--error", o.error_percent,
+                   "ends once the standard error of the picture, in percent of its mean luminance, is estimated below "
+                   "this; 0.5 is smooth to the eye")
+        ->check(lw::finite_number(0.01, 100));
     app.add_option("--device", o.device, "part of the name of a Vulkan device; default: the fastest kind");
     app.add_option("--device-memory", o.device_memory_gb,
                    "GB of the device that scene and photons may take; default: what it has to give")
         ->check(lw::finite_number(0.001, 1e6));
-    app.add_option("--frames", o.frames, "frames to draw for the time that is printed, their median")
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
+    app.add_option("--timings", o.timings, "draws the picture this often and prints the median times of its passes")
+        ->check(CLI::Range(1, 10000));
     app.add_option("--rays", o.rays, lw::rays_help)->check(CLI::IsMember(lw::rays_names))->capture_default_str();
     app.add_flag("--validation", o.validation, "run with the Vulkan validation layer; any message is an error");
     app.add_flag("--list-cameras", o.list_cameras, "print the cameras of the scene");
@@ -150,14 +152,24 @@ void take_screenshot(const Options& o) {
     lw::Renderer renderer(device, resident, size.width, size.height);
     const lw::GatherSettings gather{lw::gather_mode_named(o.gather), o.neighbours, o.shadow_rays, o.paths,
                                     o.followed_roughness};
-    const lw::Rendering picture = renderer.render(camera, {gather, o.exposure, o.samples, o.frames});
+    const lw::Rendering picture = renderer.render(camera, {.gather = gather,
+                                                           .exposure_ev = o.exposure,
+                                                           .samples = o.samples > 0     ? o.samples
+                                                                      : o.error_percent ? 4096u
+                                                                                        : 64u,
+                                                           .frames = std::max(o.timings, 1u),
+                                                           .error = o.error_percent.value_or(0) / 100,
+                                                           .shows_progress = o.timings <= 1});
     refuse_validation_messages(device);
     lw::check_is_light(picture.image);
     write_picture(o.output, picture);
     std::printf("%s: %ux%u on %s, %.0f MiB on the device, EV %.2f\n", lw::one_line(o.output).c_str(), size.width,
                 size.height, device.name().c_str(), double(resident.bytes()) / 1048576.0, double(picture.exposure_ev));
-    std::printf("visibility %.2f ms, gather %.2f ms, tone mapping %.2f ms (median of %u)\n",
-                picture.times.visibility_ms, picture.times.gather_ms, picture.times.tonemap_ms, o.frames);
+    if (picture.error)
+        std::printf("%u views, estimated standard error %.2g %%\n", picture.samples, 100 * double(*picture.error));
+    if (o.timings > 0)
+        std::printf("visibility %.2f ms, gather %.2f ms, tone mapping %.2f ms (median of %u)\n",
+                    picture.times.visibility_ms, picture.times.gather_ms, picture.times.tonemap_ms, o.timings);
 }
 
 }  // namespace

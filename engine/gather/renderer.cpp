@@ -1,12 +1,15 @@
 #include "gather/renderer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include "base/progress.h"
 #include "gather/device_fit.h"
 #include "gpu/commands.h"
 #include "image/tonemap.h"
 #include "scene/surface.h"
+#include "shaders/color.h"
 
 namespace lw {
 namespace {
@@ -39,6 +42,25 @@ vec4 normal_and_depth(const Surface& s, const Camera& camera) {
     const vec3 to_camera = camera.position - s.position;
     const bool front = dot(s.geometric_normal, to_camera) >= 0;
     return vec4(front ? s.normal : -s.normal, dot(to_camera, camera.rotation[2]));
+}
+
+constexpr uint first_compared = 8;  // samples
+
+/// The standard error of the mean of 2n samples, RMS over the pixels in parts of the mean: it and the mean of the first
+/// n differ by half of the difference of two halves. Lamps and their images are counted at eight times the mean.
+float error_of_samples(const std::vector<float>& all, const std::vector<float>& first_half) {
+    double mean = 0, squares = 0;
+    for (float l : all) mean += double(l) / double(all.size());
+    const auto limited = [&](float l) { return std::min(double(l), 8 * mean); };
+    for (size_t i = 0; i < all.size(); ++i) {
+        const double change = limited(all[i]) - limited(first_half[i]);
+        squares += change * change / double(all.size());
+    }
+    return mean > 0 ? float(std::sqrt(squares) / mean) : 0.0f;
+}
+
+bool is_light(const Channel& channel) {
+    return channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "illuminance";
 }
 
 }  // namespace
@@ -78,24 +100,41 @@ void Renderer::choose_gather(GatherSettings settings) {
 Rendering Renderer::render(const Camera& camera, const RenderSettings& settings) {
     choose_gather(settings.gather);
     std::vector<PassTimes> frames;
-    for (uint i = 0; i < std::max(1u, settings.frames); ++i) frames.push_back(render_frame(camera, settings));
     Rendering result;
+    for (uint i = 0; i < std::max(1u, settings.frames); ++i) frames.push_back(render_frame(camera, settings, result));
     result.times = median_times(frames);
     result.image =
         read_picture(*device_, resident_->scene(), camera, picture_, {width_, height_}, visibility_.read_samples());
+    const float unfinished = float(result.samples) / float(std::max(1u, settings.samples));  // part of the weights
+    for (Channel& channel : result.image.channels)
+        if (is_light(channel) && unfinished < 1)
+            for (float& value : channel.values) value /= unfinished;
     result.exposure_ev = settings.exposure_ev ? *settings.exposure_ev : auto_exposure_ev(result.image);
     std::vector<double> tonemap_ms;
-    for (size_t i = 0; i < frames.size(); ++i) tonemap_ms.push_back(render_screen(result.exposure_ev));
+    for (size_t i = 0; i < frames.size(); ++i)
+        tonemap_ms.push_back(render_screen(result.exposure_ev + std::log2(unfinished)));
     result.times.tonemap_ms = median(tonemap_ms);
     result.screen = read_screen();
     return result;
 }
 
-/// Renders all samples, each in a submission of its own, so that none lasts long enough for a driver's watchdog.
-PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& settings) const {
+std::vector<float> Renderer::read_luminance(float scale) const {
+    std::vector<float> luminances;
+    luminances.reserve(size_t(width_) * height_);
+    for (const vec4& light : read_back<vec4>(*device_, picture_.radiance(), size_t(width_) * height_))
+        luminances.push_back(luminance(vec3(light)) * scale);
+    return luminances;
+}
+
+/// Renders the samples, each in a submission of its own, so that none lasts long enough for a driver's watchdog. Each
+/// time their number has doubled, compares the picture with what it was before.
+PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& settings, Rendering& result) const {
     const uint samples = std::max(1u, settings.samples);
     const Timestamps times(*device_, 3);
     PassTimes sum;
+    std::vector<float> half;
+    std::optional<Progress> progress;
+    if (settings.shows_progress && samples > 1) progress.emplace("views", samples);
     for (uint i = 0; i < samples; ++i) {
         Frame frame = with_gather(make_frame(camera, {width_, height_}, i, samples), *resident_, settings.gather);
         if (settings.centred) frame.jitter = vec2(0);
@@ -112,6 +151,13 @@ PassTimes Renderer::render_frame(const Camera& camera, const RenderSettings& set
         const std::vector<double> ms = times.intervals_ms();
         sum.visibility_ms += ms[0];
         sum.gather_ms += ms[1];
+        if (progress) progress->step();
+        result.samples = i + 1;
+        if (!std::has_single_bit(i + 1) || i + 1 < first_compared) continue;
+        std::vector<float> all = read_luminance(float(samples) / float(i + 1));
+        if (!half.empty()) result.error = error_of_samples(all, half);
+        half = std::move(all);
+        if (result.error && *result.error < settings.error) break;
     }
     return sum;
 }

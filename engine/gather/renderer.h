@@ -12,11 +12,13 @@
 namespace lw {
 
 struct RenderSettings {
-    GatherSettings gather;
-    std::optional<float> exposure_ev;  // EV100; nothing: from the picture
-    uint samples = 1;                  // jittered views averaged per pixel
-    uint frames = 1;                   // how often the picture is made, to measure times
-    bool centred = false;              // all samples go through the pixels' centres, as those of a reference
+    GatherSettings gather{};
+    std::optional<float> exposure_ev{};  // EV100; nothing: from the picture
+    uint samples = 1;                    // jittered views averaged per pixel; at most, when an error is given
+    uint frames = 1;                     // how often the picture is made, to measure times
+    bool centred = false;                // all samples go through the pixels' centres, as those of a reference
+    float error = 0;                     // ends once Rendering::error is below it; 0: all samples
+    bool shows_progress = false;         // on stderr, of the samples
 };
 
 /// Medians over the frames, from GPU timestamps.
@@ -31,6 +33,10 @@ struct Rendering {
     Rgb8Image screen;
     float exposure_ev = 0;
     PassTimes times;
+    uint samples = 0;  // that were averaged
+    /// The standard error of a pixel's luminance, RMS over the picture in parts of its mean: what the second half of
+    /// the samples changed. Nothing below 16 samples.
+    std::optional<float> error;
 };
 
 class Renderer {
@@ -44,7 +50,8 @@ class Renderer {
 
   private:
     void choose_gather(GatherSettings settings);
-    PassTimes render_frame(const Camera& camera, const RenderSettings& settings) const;
+    PassTimes render_frame(const Camera& camera, const RenderSettings& settings, Rendering& result) const;
+    std::vector<float> read_luminance(float scale) const;
     double render_screen(float exposure_ev) const;
     Rgb8Image read_screen() const;
 

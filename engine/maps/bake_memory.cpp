@@ -29,8 +29,8 @@ Counts counts_of(const Scene& scene, const BakeSettings& settings) {
 
 double bytes_of(const Counts& c) {
     constexpr double program = 2e7, per_triangle = 650;
-    constexpr double tracing = 75;  // bytes of a photon in the vector of its task and in that of all
-    constexpr double building = 85, per_sample = 70, per_node = 64, per_node_and_lamp = 20;
+    constexpr double tracing = 102;  // bytes of a photon in the vector of its task and in that of all
+    constexpr double building = 100, per_sample = 70, per_node = 101, per_node_and_lamp = 20;
     const double maps =
         building * c.photons + per_sample * c.samples + (per_node + per_node_and_lamp * c.lamps) * c.nodes;
     return program + per_triangle * c.triangles + std::max(tracing * c.photons, maps);

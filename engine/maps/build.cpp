@@ -96,8 +96,10 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     const std::vector<Photon>& others = has_caustics ? parted.others : photons.records;
 
     const Partition partition = limit_references(scene, caster, photons.records, partition_surfaces(scene, settings));
-    auto [surfaces, records] = sort_into_grids({scene, caster, partition, others}, packing);
-    Lattice lattice = lay_lattice(scene, caster, partition, std::move(surfaces));
+    RecordSettings with_lattice = packing;
+    with_lattice.empty_grids = !settings.direct_in_photons;
+    PhotonGrids grids = sort_into_grids({scene, caster, partition, others}, with_lattice);
+    Lattice lattice = lay_lattice(scene, caster, partition, std::move(grids.surfaces));
 
     std::vector<uint> visible_lamps;  // none where photons hold all light
     std::vector<ShadowMask> shadow_masks;
@@ -105,10 +107,10 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
         visible_lamps = find_visibility(scene, caster, lattice);
         shadow_masks = find_shadow_masks(scene, caster, lattice, visible_lamps);
     }
-    NodeIrradiance irradiance = find_irradiance({scene, caster, lattice, records, visible_lamps});
-
     PhotonGrids caustics;
     if (has_caustics) caustics = sort_into_grids({scene, caster, partition, parted.caustic}, packing);
+    NodeIrradiance irradiance =
+        find_irradiance({scene, caster, lattice, grids, others, settings.seed, visible_lamps}, caustics);
     SmoothCaustics light{std::move(irradiance), {}};
     if (has_caustics && !settings.direct_in_photons)
         light = add_smooth_caustics(scene, lattice, caustics, std::move(light.irradiance));
@@ -119,7 +121,7 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     map.stored_photons = photons.records.size();
     for (const LightBalance& lamp : photons.lights) map.emitted.push_back(lamp.emitted);
     static_cast<SurfaceGrids&>(map) = std::move(lattice.surfaces);
-    static_cast<PhotonRecords&>(map) = std::move(records);
+    static_cast<PhotonRecords&>(map) = std::move(grids.records);
     if (has_caustics) add_caustics(std::move(caustics), map);
     map.coverage = std::move(lattice.coverage);
     map.visible_lamps = std::move(visible_lamps);

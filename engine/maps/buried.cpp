@@ -6,14 +6,13 @@
 
 namespace lw {
 
-bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance, Rng& rng) {
-    constexpr int rays_around = 4;
+bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, BuryingTest test, Rng& rng) {
     const mat3 frame = frame_around(normal);
     const vec3 origin = caster.offset(point, normal);
-    for (int i = 0; i < rays_around; ++i) {
-        const float u = (float(i) + rng.next()) / rays_around;
+    for (int i = 0; i < test.rays; ++i) {
+        const float u = (float(i) + rng.next()) / float(test.rays) * test.widest;
         const vec3 direction = sample_cosine(u, rng.next());
-        if (!caster.nearest(origin, frame * direction, clearance / std::max(direction.z, 0.2f))) return false;
+        if (!caster.nearest(origin, frame * direction, test.clearance / std::max(direction.z, 0.2f))) return false;
     }
     return true;
 }

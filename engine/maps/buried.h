@@ -8,7 +8,13 @@ namespace lw {
 /// Surfaces closer than this under another one get no light.
 inline float clearance_of(float radius) { return 0.25f * radius; }
 
-/// True when every one of a few rays into the hemisphere meets a surface lower than `clearance` over the point.
-bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, float clearance, Rng& rng);
+struct BuryingTest {
+    float clearance;  // m
+    int rays = 4;
+    float widest = 1;  // squared sine of the largest angle between a ray and the normal
+};
+
+/// True when every ray meets a surface lower than the clearance over the point.
+bool is_buried(const RayCaster& caster, vec3 point, vec3 normal, BuryingTest test, Rng& rng);
 
 }  // namespace lw

@@ -14,9 +14,16 @@ namespace lw {
 namespace {
 
 constexpr double samples_of_patch = 64;
+constexpr float plane_spread = 0.999f;  // least cosine between normals of a plane patch
 
-/// The area a sample of each triangle stands for: at most `area`, and a patch has at least samples_of_patch.
-std::vector<float> areas_of_samples(const Scene& scene, const Patches& patches, float area) {
+/// The area a sample of each triangle stands for: at most `area`, a third of it on curved patches, whose coverage has
+/// no closed form anywhere; and a patch has at least samples_of_patch.
+std::vector<float> areas_of_samples(const Scene& scene, const Partition& partition, float area) {
+    const Patches& patches = partition.patches;
+    const auto is_curved = [&](size_t side) {
+        const uint id = patches.of_side[side];
+        return !is_cut(id) && partition.shapes[id].cos_spread < plane_spread;
+    };
     std::vector<double> patch_areas(patches.count, 0),
         cut_areas(patches.cuts.size(), 0);  // of the whole when it is cut
     const auto area_of_side = [&](size_t side) -> double& {
@@ -28,7 +35,8 @@ std::vector<float> areas_of_samples(const Scene& scene, const Patches& patches, 
     std::vector<float> areas(scene.triangles.size());
     for (size_t t = 0; t < areas.size(); ++t) {
         const double smaller = std::min(area_of_side(2 * t), area_of_side(2 * t + 1));
-        areas[t] = std::max(1e-20f, std::min(area, float(smaller / samples_of_patch)));
+        const float wanted = is_curved(2 * t) || is_curved(2 * t + 1) ? area / 3 : area;
+        areas[t] = std::max(1e-20f, std::min(wanted, float(smaller / samples_of_patch)));
     }
     return areas;
 }
@@ -83,7 +91,7 @@ std::vector<char> WantedSamples::sides() const {
 std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted,
                                     SampleSettings settings) {
     constexpr size_t chunk = 1024;
-    const std::vector<float> shares = areas_of_samples(scene, wanted.partition.patches, settings.area);
+    const std::vector<float> shares = areas_of_samples(scene, wanted.partition, settings.area);
     const std::vector<char> sides = wanted.sides();
     std::vector<uint> counts(scene.triangles.size());
     double waiting = 0.5;
@@ -110,7 +118,7 @@ std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster,
                     if (!wanted_sides[side]) continue;
                     const vec3 n = product / (side ? -length(product) : length(product));
                     Rng rng(1, 2 * t + side, i);
-                    if (is_buried(caster, position, n, settings.clearance, rng)) continue;
+                    if (is_buried(caster, position, n, {settings.clearance}, rng)) continue;
                     chunks[k].push_back({position, vec3(shares[t]), n, uint(t), pack_origin(0, path_direct, side)});
                 }
             }

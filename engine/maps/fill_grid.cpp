@@ -43,11 +43,19 @@ std::vector<Record> bring_into_frame(const SurfaceGrid& grid, const std::vector<
     return records;
 }
 
+/// One cell without photons.
+void lay_empty_cell(SurfaceGrid& grid) {
+    grid.cell_size = grid.radius;
+    grid.quantum = vec3(grid.radius / 65535.0f);
+    grid.columns = grid.rows = 1;
+}
+
 /// Moves the origin to the corner of the photons' bounds and sets quantum and cells for `count` references.
 void fit_grid(SurfaceGrid& grid, const Bounds& bounds, size_t count) {
     const vec3 reach = max(abs(grid.origin), vec3(1e-20f));
     const float floor_size = 1e-6f * std::max({reach.x, reach.y, reach.z});
     const vec3 extent = max((bounds.high - bounds.low) * 1.0001f, vec3(floor_size));
+    if (count == 0) return lay_empty_cell(grid);
     grid.origin += grid.u_axis * bounds.low.x + grid.v_axis * bounds.low.y;
     grid.h_origin = bounds.low.z;
     grid.quantum = extent / 65535.0f;
@@ -78,8 +86,8 @@ uint grid_cell_of(PhotonPlace place, const SurfaceGrid& grid) {
 
 }  // namespace
 
-std::vector<uint> fill_grid(SurfaceGrid& grid, const std::vector<Photon>& photons, std::span<const uint> chosen,
-                            uint begin, PhotonRecords& packed) {
+FilledGrid fill_grid(SurfaceGrid& grid, const std::vector<Photon>& photons, std::span<const uint> chosen, uint begin,
+                     PhotonRecords& packed) {
     Bounds bounds;
     const std::vector<Record> records = bring_into_frame(grid, photons, chosen, packed, bounds);
     fit_grid(grid, bounds, records.size());
@@ -90,15 +98,17 @@ std::vector<uint> fill_grid(SurfaceGrid& grid, const std::vector<Photon>& photon
         cells[i] = grid_cell_of(places[i], grid);
         ++next[cells[i]];
     }
+    const uint first = begin;
     for (uint& start : next) begin += std::exchange(start, begin);
-    const std::vector<uint> starts = next;
+    FilledGrid filled{next, std::vector<uint>(records.size())};
     for (size_t i = 0; i < records.size(); ++i) {
         const uint slot = next[cells[i]]++;
         packed.places[slot] = places[i];
         packed.fluxes[slot] = records[i].flux;
+        filled.photons[slot - first] = chosen[i];
         if (packed.has_directions()) packed.directions[slot] = records[i].direction;
     }
-    return starts;
+    return filled;
 }
 
 }  // namespace lw

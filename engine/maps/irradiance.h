@@ -3,8 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "maps/lattice.h"
-#include "trace/ray_caster.h"
+#include "maps/final_gather.h"
 
 namespace lw {
 
@@ -14,18 +13,9 @@ struct NodeIrradiance {
     float scale = 1;            // so that the brightest fits
 };
 
-/// What it follows from; all of it must outlive the search.
-struct IrradianceInput {
-    const Scene& scene;
-    const RayCaster& caster;
-    const Lattice& lattice;
-    const PhotonRecords& photons;            // in the grids of the lattice
-    const std::vector<uint>& visible_lamps;  // of find_visibility(); empty where photons hold all light
-};
-
-/// What the photons bring to the nodes, with the bandwidth of 300 photons, and the direct light of emissive meshes,
-/// whose shadows are soft, where photons do not hold it. That of point, spot and directional lamps is left to shadow
-/// rays.
-NodeIrradiance find_irradiance(const IrradianceInput& input);
+/// Where photons do not hold the direct light: reflected light by final gathering, and the direct light of lamps with a
+/// surface; that of other lamps is left to shadow rays. `caustics`: photons whose light is gathered apart, but which
+/// rays see on surfaces. Where photons hold all light (no visible_lamps in `input`): their estimate, smoothed.
+NodeIrradiance find_irradiance(const GatherInput& input, const PhotonGrids& caustics);
 
 }  // namespace lw

@@ -86,8 +86,8 @@ void LatticeLight::add_mask(const ShadowMask& mask) {
         bits &= ~((dark ? some_visible : some_hidden) << shift);
         return;
     }
-    if ((rows_[size_t(mask.cell) * row_length_] >> first_mask_shift) == 0)
-        rows_[size_t(mask.cell) * row_length_] |= uint(masks_.size()) << first_mask_shift;
+    if (masked_cell_ != mask.cell) rows_[size_t(mask.cell) * row_length_] |= uint(masks_.size()) << first_mask_shift;
+    masked_cell_ = mask.cell;
     bits |= has_shadow_mask << shift;
     masks_.emplace_back(mask.lit_low, mask.lit_high, mask.tint, 0);
 }

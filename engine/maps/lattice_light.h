@@ -49,6 +49,7 @@ class LatticeLight {
     uint lamp_count_, first_lamp_column_, row_length_;
     std::vector<uint> rows_;
     std::vector<uvec4> masks_;
+    uint masked_cell_ = no_grid;  // the cell of the last of them
     std::vector<uint> punctual_;
     SparseArray direct_;
     float max_direct_ = 1e-20f;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -14,6 +15,7 @@ namespace lw {
 namespace {
 
 constexpr float max_nodes_across = 16384;
+constexpr float drawn_in = 0.02f;  // steps
 
 /// The triangle sides of each grid: those of grid m are sides[starts[m]] .. sides[starts[m + 1] - 1].
 struct SidesOfGrids {
@@ -70,6 +72,52 @@ vec2 nearest_barycentrics(vec2 a, vec2 b, vec2 c, vec2& nearest) {
     if (std::abs(doubled) < 1e-20f) return vec2(0);
     const float v = (ap.x * ac.y - ap.y * ac.x) / doubled, w = (ab.x * ap.y - ab.y * ap.x) / doubled;
     return clamp(vec2(v, w), vec2(0), vec2(1));
+}
+
+/// The middle of a patch in the frame of its grid.
+vec2 middle_of(const PatchShape& shape, const SurfaceGrid& grid) {
+    vec2 middle(0);
+    for (vec2 corner : shape.outline) middle += (corner - vec2(shape.low)) / float(shape.outline.size());
+    return grid.lattice.low + (shape.outline.empty() ? 0.5f * vec2(shape.high - shape.low) : middle);
+}
+
+/// Weights of the second and third corner of a triangle of a point of its plane, which may lie beyond its edges.
+vec2 barycentrics_of(const std::array<vec3, 3>& corners, vec3 point) {
+    const glm::dvec3 a(corners[0]), ab = glm::dvec3(corners[1]) - a, ac = glm::dvec3(corners[2]) - a,
+                                    ap = glm::dvec3(point) - a;
+    const double bb = glm::dot(ab, ab), bc = glm::dot(ab, ac), cc = glm::dot(ac, ac), pb = glm::dot(ap, ab),
+                 pc = glm::dot(ap, ac), determinant = bb * cc - bc * bc;
+    return vec2(float((cc * pb - bc * pc) / determinant), float((bb * pc - bc * pb) / determinant));
+}
+
+/// How much of the way from one point of a triangle to another lies in it; both by barycentrics.
+float part_inside(vec2 from, vec2 to) {
+    const vec3 start(1 - from.x - from.y, from), end(1 - to.x - to.y, to);
+    float part = 1;
+    for (int c = 0; c < 3; ++c)
+        if (end[c] < 0) part = std::min(part, std::max(start[c], 0.0f) / std::max(start[c] - end[c], 1e-20f));
+    return part;
+}
+
+/// Draws the points of a lattice towards the middle of their patch by a small part of a step, within their triangles,
+/// so that rays that leave those on its border do not start in a wall that stands there. Not in slivers, which hold no
+/// place exactly.
+void draw_in(const Scene& scene, const SurfaceGrid& grid, vec2 middle, std::span<NodePoint> points) {
+    const float wanted = drawn_in * std::max(grid.lattice.step.x, grid.lattice.step.y);
+    for (NodePoint& point : points) {
+        if (!point.exists()) continue;
+        const std::array<vec3, 3> p = triangle_corners(scene, point.triangle);
+        const vec3 product = edge_product(p[0], p[1], p[2]), edge = p[1] - p[0], other = p[2] - p[0];
+        if (length(product) < 1e-3f * std::max(dot(edge, edge), dot(other, other))) continue;
+        const vec2 b = point.barycentrics;
+        const vec3 at = (1 - b.x - b.y) * p[0] + b.x * p[1] + b.y * p[2];
+        vec3 way = position_of(grid, vec3(middle, position_in_grid(grid, at).z)) - at;
+        way -= product * (dot(way, product) / dot(product, product));
+        const float distance = length(way);
+        if (!(distance > 0)) continue;
+        const vec2 moved = barycentrics_of(p, at + way * std::min(wanted / distance, 1.0f));
+        point.barycentrics = b + (moved - b) * part_inside(b, moved);
+    }
 }
 
 /// Offers one triangle side to the nodes around it; where a patch is cut, only what lies inside its `outline`, in the
@@ -131,6 +179,8 @@ Nodes lay_nodes(const Scene& scene, const Partition& partition, PatchGrids surfa
             for (vec3& corner : corners) corner = position_in_grid(grid, corner) - vec3(lattice.low, 0);
             place_nodes(lattice, corners, triangle, outline, points);
         }
+        draw_in(scene, grid, middle_of(shape_of(m), grid),
+                std::span(points).subspan(lattice.first_node, lattice.columns * lattice.rows));
     });
     return {std::move(surfaces), std::move(points)};
 }

@@ -14,15 +14,18 @@ struct PatchGrids : SurfaceGrids {
 struct PhotonGrids {
     PatchGrids surfaces;
     PhotonRecords records;
+    std::vector<uint> photons;  // of each record: which of the photons it refers to
 };
 
 /// What records keep of a photon.
 struct RecordSettings {
     float flux_scale = 1;  // record flux = flux * flux_scale
     bool directions = false;
+    bool empty_grids = false;  // also for patches without photons that see some that have them
 };
 
-/// One grid for each patch that refers to photons, with its records; throws Error beyond 2^32 references or cells.
+/// One grid for each patch that refers to photons, and for those asked for, with its records; throws Error beyond 2^32
+/// references or cells.
 PhotonGrids sort_into_grids(const ReferenceInput& input, RecordSettings settings);
 
 /// Appends the grids, cuts and records of `more` behind those of `grids` and `records`, whose sides keep to their own.

@@ -30,9 +30,7 @@ class CausticNodes {
         const NodePoint& point = lattice_.nodes[node];
         if (!point.exists()) return false;
         const Surface s = surfaces_.surface_at(point.triangle, point.barycentrics);
-        const bool front = dot(s.geometric_normal, lattice_.surfaces.grids[m].normal) >= 0;
-        const uint own = caustics_.surfaces.behind_cuts(
-            caustics_.surfaces.grid_of_side[2 * size_t(point.triangle) + (front ? 0 : 1)], s.position);
+        const uint own = grid_of(m, point.triangle, s);
         if (own == no_grid) return true;
         const SurfaceGrid& grid = caustics_.surfaces.grids[own];
         const SurfaceLattice& lattice = lattice_.surfaces.grids[m].lattice;
@@ -48,7 +46,27 @@ class CausticNodes {
         return true;
     }
 
+    /// Lux of one lamp at a node of grid m for intensity 1, if irradiance_scale is 1, blurred over min_steps at least.
+    vec3 blurred(uint m, uint node, uint lamp) const {
+        const NodePoint& point = lattice_.nodes[node];
+        if (!point.exists()) return vec3(0);
+        const Surface s = surfaces_.surface_at(point.triangle, point.barycentrics);
+        const uint own = grid_of(m, point.triangle, s);
+        if (own == no_grid) return vec3(0);
+        const SurfaceGrid& grid = caustics_.surfaces.grids[own];
+        const vec3 local = position_in_grid(grid, s.position), step(lattice_.surfaces.grids[m].lattice.step, 0);
+        const float radius = std::max(reader_.caustic_radius(grid, local), min_steps * std::max(step.x, step.y));
+        return light_at_node(m, node, grid, local, std::min(radius, grid.radius))[lamp];
+    }
+
   private:
+    /// The grid of caustics at a point of grid m of the lattice.
+    uint grid_of(uint m, uint triangle, const Surface& s) const {
+        const bool front = dot(s.geometric_normal, lattice_.surfaces.grids[m].normal) >= 0;
+        return caustics_.surfaces.behind_cuts(caustics_.surfaces.grid_of_side[2 * size_t(triangle) + (front ? 0 : 1)],
+                                              s.position);
+    }
+
     size_t record(uint lamp, uint node) const { return size_t(lamp) * lattice_.nodes.size() + node; }
 
     bool has_any(const std::vector<vec3>& light) const {
@@ -91,6 +109,20 @@ SmoothCaustics add_smooth_caustics(const Scene& scene, const Lattice& lattice, c
     for (size_t n = 0; n < smooth.size(); ++n)
         if (smooth[n]) marks[n / 32] |= 1u << (n % 32);
     return {std::move(irradiance), std::move(marks)};
+}
+
+std::vector<vec3> estimate_caustics(const Scene& scene, const Lattice& lattice, const PhotonGrids& caustics,
+                                    uint lamp) {
+    std::vector<vec3> light;
+    if (caustics.surfaces.grids.empty()) return light;
+    light.resize(lattice.nodes.size(), vec3(0));
+    const CausticNodes caustic_nodes(scene, lattice, caustics, 1);
+    parallel_for(lattice.surfaces.grids.size(), [&](size_t m) {
+        const SurfaceLattice& nodes = lattice.surfaces.grids[m].lattice;
+        for (uint n = nodes.first_node; n < nodes.first_node + nodes.columns * nodes.rows; ++n)
+            light[n] = caustic_nodes.blurred(uint(m), n, lamp);
+    });
+    return light;
 }
 
 }  // namespace lw

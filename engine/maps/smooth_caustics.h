@@ -16,4 +16,8 @@ struct SmoothCaustics {
 SmoothCaustics add_smooth_caustics(const Scene& scene, const Lattice& lattice, const PhotonGrids& caustics,
                                    NodeIrradiance irradiance);
 
+/// What the photons of `caustics` of one lamp bring to all nodes, lux for intensity 1, blurred over at least 1.5 steps
+/// of the lattice: as rays see caustics on surfaces. Empty without caustics.
+std::vector<vec3> estimate_caustics(const Scene& scene, const Lattice& lattice, const PhotonGrids& caustics, uint lamp);
+
 }  // namespace lw

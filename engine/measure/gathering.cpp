@@ -50,7 +50,7 @@ void Gatherer::add_lamps(const Seen& at, LampChoice choice, GatherRay& to) const
         const vec3 light =
             f * in->radiance * caster_.transmittance(caster_.offset(s.position, at.n_geometric), in->position);
         float weight = in->pdf > 0 ? 1 / in->pdf : 1.0f;
-        if (in->pdf > 0 && choice == LampChoice::with_path)
+        if (has_surface(scene_.lights[lamp].type) && choice == LampChoice::with_path)
             weight *= share_of(in->pdf, bsdf_pdf(surfaces_, s, at.to_view, in->to_light));
         to.lamps[lamp] += light * weight;
     }

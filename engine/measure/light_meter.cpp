@@ -172,7 +172,7 @@ Reading LightMeter::read(const Sensor& asked, size_t index, const MeterSettings&
     Rng blocking(settings.seed, 0, index);
     reading.blocked = sensor.response == Response::planar;
     for (int i = 0; i < looks_around && reading.blocked; ++i)
-        reading.blocked = is_buried(caster_, sensor.position, sensor.normal, blocked_within, blocking);
+        reading.blocked = is_buried(caster_, sensor.position, sensor.normal, {blocked_within}, blocking);
     for (uint r = 0; r < repetitions; ++r)
         add_repetition(sensor, index * repetitions + r, r, settings, shares, reading);
     add_caustic_on(sensor, shares, reading);

@@ -38,7 +38,9 @@ void MirrorTracer::add_lamps(const Surface& s, vec3 n, vec3 to_view, vec3 part, 
         const vec3 f = surfaces_.eval_brdf(s, n, to_view, in->to_light, false);
         if (!(largest(f) > 0)) continue;
         vec3 seen = part * f * in->radiance * powers_[lamp] * dot(in->to_light, n);
-        if (in->pdf > 0) seen *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, s, to_view, in->to_light)) / in->pdf;
+        if (in->pdf > 0) seen /= in->pdf;
+        if (has_surface(scene_.lights[lamp].type))  // rays meet it too
+            seen *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, s, to_view, in->to_light));
         if (precise_luminance(seen) > 0)
             light[{lamp, object}] += precise_luminance(
                 seen *

@@ -26,7 +26,8 @@ int pick(const float* cumulative, float u, float& within, float& probability) {
                                    cumulative + EmissionGuide::side - 1);
     const float below = chosen == cumulative ? 0.0f : *(chosen - 1);
     probability = *chosen - below;
-    within = std::clamp((u - below) / std::max(probability, 1e-20f), 0.0f, 0.999999f);
+    constexpr float last = 1 - 4e-6f;  // rounds to no next entry in a sum with side - 1
+    within = std::clamp((u - below) / std::max(probability, 1e-20f), 0.0f, last);
     return int(chosen - cumulative);
 }
 

@@ -13,12 +13,16 @@ constexpr uint path_near_caustic = 3;
 
 inline bool is_caustic(uint path) { return path == path_caustic || path == path_near_caustic; }
 
+constexpr uint no_reflector = ~0u;
+
 struct Photon {
     vec3 position;
-    vec3 flux;      // lm per unit intensity of its lamp, per RGB
-    vec3 from;      // unit direction it came from
-    uint triangle;  // struck triangle
-    uint origin;    // pack_origin(): lamp, path class, struck side
+    vec3 flux;          // lm per unit intensity of its lamp, per RGB
+    vec3 from;          // unit direction it came from
+    uint triangle;      // struck triangle
+    uint origin;        // pack_origin(): lamp, path class, struck side
+    vec3 reflector{0};  // the place at which a surface reflected it last to all sides (reflects_to_all_sides())
+    uint reflector_side = no_reflector;  // 2 x triangle of that surface, + 1 for its back
 
     uint light() const { return origin & light_mask; }
     uint path() const {

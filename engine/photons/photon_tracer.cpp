@@ -27,6 +27,8 @@ uint path_after(uint path, const Scatter& next) {
 struct PhotonTracer::PathState {
     vec3 origin, direction, flux;
     vec3 medium{0};  // absorption, 1/m
+    vec3 reflector{0};
+    uint reflector_side = no_reflector;
     uint light = 0, path = path_direct;
     int depth = 0;
     Rng rng{0, 0, 0};
@@ -135,7 +137,7 @@ void PhotonTracer::keep(Chunk& chunk, const PathState& state, const Bounce& at) 
     ++chunk.shown;
     if (state.path == path_direct && !settings_.direct_in_photons) return;
     chunk.photons.push_back({at.surface.position, state.flux, -state.direction, at.triangle,
-                             pack_origin(state.light, state.path, at.back)});
+                             pack_origin(state.light, state.path, at.back), state.reflector, state.reflector_side});
 }
 
 PhotonTracer::Bounce PhotonTracer::bounce_at(const Hit& hit, vec3 direction) const {
@@ -166,6 +168,11 @@ void PhotonTracer::read_matte(const Hit& hit, const PackedTriangle& packed, Surf
     if (dot(s.normal, s.geometric_normal) < 0) s.normal = -s.normal;
 }
 
+void PhotonTracer::note_reflector(PathState& state, const Bounce& at) {
+    state.reflector = at.surface.position;
+    state.reflector_side = 2 * at.triangle + (at.back ? 1 : 0);
+}
+
 /// Samples the direction in which the path goes on; returns false when it ends, by absorption or Russian roulette.
 bool PhotonTracer::leave(Chunk& chunk, PathState& state, const Bounce& at) const {
     if (at.matte) return leave_matte(chunk, state, at);
@@ -174,6 +181,8 @@ bool PhotonTracer::leave(Chunk& chunk, PathState& state, const Bounce& at) const
     const float max_survival = state.depth < depth_of_roulette || (next && !next->specular) ? 1.0f : 0.95f;
     if (!survives(chunk, state, next ? next->weight : vec3(0), max_survival)) return false;
     state.path = path_after(state.path, *next);
+    const bool passes = (dot(next->direction, at.surface.geometric_normal) < 0) != at.back;
+    if (!next->narrow && !passes && reflects_to_all_sides(surfaces_, at.surface)) note_reflector(state, at);
     state.direction = next->direction;
     state.medium = absorption_after(surfaces_, at.surface, state.direction, state.medium);
     const vec3 ng = at.surface.geometric_normal;
@@ -209,6 +218,7 @@ bool PhotonTracer::leave_matte(Chunk& chunk, PathState& state, const Bounce& at)
     const float adjoint = !(out > 0) ? 0.0f : geometric > 1e-6f && !at.flat ? shading / geometric : 1.0f;
     if (!survives(chunk, state, at.surface.base_color * adjoint, 1)) return false;
     state.path = path_indirect;
+    note_reflector(state, at);
     state.direction = direction;
     state.origin = caster_.offset(at.surface.position, ng);
     return true;

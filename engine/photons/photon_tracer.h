@@ -48,6 +48,7 @@ class PhotonTracer {
     Bounce bounce_at(const Hit& hit, vec3 direction) const;
     bool leave(Chunk& chunk, PathState& state, const Bounce& at) const;
     bool leave_matte(Chunk& chunk, PathState& state, const Bounce& at) const;
+    static void note_reflector(PathState& state, const Bounce& at);
     static bool survives(Chunk& chunk, PathState& state, vec3 weight, float max_survival);
     void read_matte(const Hit& hit, const PackedTriangle& packed, Surface& s) const;
 

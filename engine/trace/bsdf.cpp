@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shaders/color.h"
+#include "shaders/photon_map.h"
 #include "trace/sampling.h"
 
 namespace lw {
@@ -142,6 +143,14 @@ float adjoint_factor(const Lobes& l, vec3 to_view, vec3 direction) {
 }
 
 }  // namespace
+
+bool has_narrow_lobe(const Surface& s) {
+    return s.roughness < narrow_roughness && (s.specular > 0 || s.metallic > 0 || s.transmission > 0);
+}
+
+bool reflects_to_all_sides(const SurfaceReader& reader, const Surface& s) {
+    return !reader.is_purely_specular(s) && (s.metallic <= 0.5f || s.roughness >= min_gathered_roughness);
+}
 
 std::optional<Scatter> sample_bsdf(const SurfaceReader& reader, const Surface& s, vec3 to_view, Carries carries,
                                    Rng& rng) {

@@ -27,6 +27,13 @@ struct Scatter {
 std::optional<Scatter> sample_bsdf(const SurfaceReader& reader, const Surface& s, vec3 to_view, Carries carries,
                                    Rng& rng);
 
+/// True when the surface has a specular lobe that is no mirror but nearly as sharp (Scatter::narrow).
+bool has_narrow_lobe(const Surface& s);
+
+/// True for surfaces whose reflected light final gathering takes to be alike on all sides: all but mirrors, clear glass
+/// and smooth metal.
+bool reflects_to_all_sides(const SurfaceReader& reader, const Surface& s);
+
 /// Solid-angle pdf with which sample_bsdf picks `to_light` by its non-specular lobes.
 float bsdf_pdf(const SurfaceReader& reader, const Surface& s, vec3 to_view, vec3 to_light);
 

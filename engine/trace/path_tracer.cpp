@@ -42,8 +42,9 @@ vec3 PathTracer::direct_from(uint light, const Vertex& at, Rng& rng) const {
     const vec3 start = caster_.offset(at.s.position, side > 0 ? at.ng : -at.ng);
     const vec3 passed = caster_.transmittance(start, in->position);
     vec3 light_in = powers_[light] * in->radiance * passed * f * std::abs(cosine);
-    if (in->pdf > 0)
-        light_in *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, at.s, at.to_view, in->to_light)) / in->pdf;
+    if (in->pdf > 0) light_in /= in->pdf;
+    if (has_surface(scene_.lights[light].type))  // the path may meet it too
+        light_in *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, at.s, at.to_view, in->to_light));
     return light_in;
 }
 

@@ -49,7 +49,7 @@ void run_line(const std::string& line, const TempFolder& folder) {
     std::vector<std::string> words = words_of(line, folder);
     const std::string program = words.at(0).substr(words[0].find('-') + 1);
     words.erase(words.begin());
-    if (program == "screenshot") words.insert(words.end(), {"--device", "llvmpipe", "--validation", "--frames", "1"});
+    if (program == "screenshot") words.insert(words.end(), {"--device", "llvmpipe", "--validation"});
     const Outcome outcome = run(program, words);
     if (outcome.exit_code != 0) throw Error(line + ": " + outcome.err);
 }

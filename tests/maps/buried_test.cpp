@@ -19,8 +19,8 @@ TEST(Buried, ArePointsUnderALowSheetAndNotThoseUnderATable) {
     for (uint i = 0; i < 100; ++i) {
         Rng rng(1, 1, i);
         const float z = 0.5f + 3 * rng.next();
-        under_rug += is_buried(caster, vec3(0.5f + rng.next(), 0, z), vec3(0, 1, 0), clearance_of(0.5f), rng);
-        EXPECT_FALSE(is_buried(caster, vec3(2.5f + rng.next(), 0, z), vec3(0, 1, 0), clearance_of(0.5f), rng));
+        under_rug += is_buried(caster, vec3(0.5f + rng.next(), 0, z), vec3(0, 1, 0), {clearance_of(0.5f)}, rng);
+        EXPECT_FALSE(is_buried(caster, vec3(2.5f + rng.next(), 0, z), vec3(0, 1, 0), {clearance_of(0.5f)}, rng));
     }
     EXPECT_GT(under_rug, 95);  // a ray along the floor now and then passes far below the rug
 }

@@ -310,7 +310,7 @@ TEST(Estimate, LightOfCellsHoldsSmallLampsAsTheyAre) {
                      nodes = compare_everywhere(by_nodes, exact, scene);
     EXPECT_LT(std::abs(masks.bias), 0.003);
     EXPECT_LT(masks.rmse, 0.03);
-    EXPECT_LT(masks.rmse, 0.6 * nodes.rmse);
+    EXPECT_LT(masks.rmse, 0.7 * nodes.rmse);  // nodes at borders, drawn in, see what stands there
 }
 
 TEST(Estimate, ReferencesPerPhotonStayBounded) {

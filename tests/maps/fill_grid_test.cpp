@@ -36,7 +36,7 @@ struct Strip {
         map.places.resize(begin + chosen.size() + 2), map.fluxes.resize(map.places.size());
         if (has_directions) map.directions.resize(map.places.size());
         grid = frame;
-        starts = fill_grid(grid, photons, chosen, begin, map);
+        starts = fill_grid(grid, photons, chosen, begin, map).cell_starts;
     }
     uint end_of(size_t cell) const { return cell + 1 < starts.size() ? starts[cell + 1] : begin + uint(chosen.size()); }
 
@@ -118,7 +118,7 @@ TEST(FillGrid, PhotonsAtOnePlaceShareAFewCells) {
     Strip strip(300);
     for (Photon& photon : strip.photons) photon.position = strip.photons[0].position;
     strip.grid = strip.frame;
-    strip.starts = fill_grid(strip.grid, strip.photons, strip.chosen, Strip::begin, strip.map);
+    strip.starts = fill_grid(strip.grid, strip.photons, strip.chosen, Strip::begin, strip.map).cell_starts;
     EXPECT_LE(strip.starts.size(), 4u);
     for (uint i = Strip::begin; i < Strip::begin + strip.chosen.size(); ++i)
         EXPECT_LT(length(position_of(strip.grid, strip.map.places[i]) - strip.photons[0].position), 1e-4f);

@@ -36,7 +36,7 @@ struct Sheets {
         grid.radius = map.settings.radius;
         std::vector<uint> all(count);
         std::iota(all.begin(), all.end(), 0u);
-        map.cell_starts = fill_grid(grid, photons, all, 0, map);
+        map.cell_starts = fill_grid(grid, photons, all, 0, map).cell_starts;
         map.cell_starts.push_back(uint(count));
     }
 
@@ -126,7 +126,7 @@ TEST(PhotonSums, OfAMillionPhotonsAtOnePlaceAreExact) {
     SurfaceGrid& grid = map.grids.emplace_back();
     grid.u_axis = vec3(0, 0, 1), grid.v_axis = vec3(1, 0, 0), grid.normal = vec3(0, 1, 0);
     grid.radius = 0.5f;
-    map.cell_starts = fill_grid(grid, {photon}, std::vector<uint>(count, 0), 0, map);
+    map.cell_starts = fill_grid(grid, {photon}, std::vector<uint>(count, 0), 0, map).cell_starts;
     map.cell_starts.push_back(uint(count));
     std::vector<vec4> parts(PhotonSums::sums_per_lamp, vec4(0));
     PhotonSums(map, grid, 0.5f).add(position_in_grid(grid, photon.position), 0.5f, parts);

@@ -25,9 +25,9 @@ class FaultyDevice : public testing::Test {
 
     static Outcome screenshot(const std::string& fault, const Words& more = {}) {
         const Fault in_force(fault);
-        Words words{scene_path(), *folder / "map", "-o",       *folder / "picture.png",
-                    "--size",     "16x12",         "--frames", "1",
-                    "--gather",   "smooth",        "--device", "llvmpipe"};
+        Words words{scene_path(), *folder / "map", "-o",        *folder / "picture.png",
+                    "--size",     "16x12",         "--samples", "1",
+                    "--gather",   "smooth",        "--device",  "llvmpipe"};
         words.insert(words.end(), more.begin(), more.end());
         return run("screenshot", words);
     }

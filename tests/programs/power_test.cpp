@@ -31,7 +31,7 @@ TEST(Power, WithAFactorThatIsNoneIsRefused) {
 Image baked_picture(const TempFolder& folder, const std::string& scene, const Words& more) {
     bake(scene, folder / "map", {"--photons", "20000"});
     Words words{scene,      folder / "map", "-o", folder / "picture.exr", "--size", "32x24", "--device",
-                "llvmpipe", "--frames",     "1",  "--validation"};
+                "llvmpipe", "--samples",    "1",  "--validation"};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = run("screenshot", words);
     if (outcome.exit_code != 0) throw Error(outcome.err);

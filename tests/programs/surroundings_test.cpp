@@ -163,7 +163,7 @@ TEST_F(Surroundings, AnEnvironmentOfNonsenseChangesNoPicture) {
         "env -u HOME TMPDIR=/nowhere XDG_CACHE_HOME=/nowhere XDG_RUNTIME_DIR=/nowhere LANG=nonsense LC_ALL=xx "
         "COLUMNS=0 TERM= DISPLAY=nonsense WAYLAND_DISPLAY=nonsense LP_NUM_THREADS=-5 TZ=nonsense ";
     const std::string line =
-        "$BIN/lumenwalk-screenshot $CUBE map --size 16x12 --frames 1 --gather smooth --device llvmpipe -o ";
+        "$BIN/lumenwalk-screenshot $CUBE map --size 16x12 --samples 1 --gather smooth --device llvmpipe -o ";
     EXPECT_EQ(in_shell(*folder, line + "plain.png").exit_code, 0);
     const Outcome outcome = in_shell(*folder, nonsense + line + "odd.png");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -208,7 +208,7 @@ TEST_F(Surroundings, APictureThatIsTooLargeForTheDeviceIsToldWithWhatWouldFit) {
     SKIP_WITHOUT_LAVAPIPE();
     const auto shot = [&](const std::string& size) {
         return in_shell(*folder,
-                        "$BIN/lumenwalk-screenshot $CUBE map -o made.png --frames 1 --gather smooth "
+                        "$BIN/lumenwalk-screenshot $CUBE map -o made.png --samples 1 --gather smooth "
                         "--device llvmpipe --device-memory 0.05 --size " +
                             size);
     };

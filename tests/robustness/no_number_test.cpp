@@ -54,7 +54,7 @@ TEST(NoNumber, IsWrittenOrPrintedByNoProgram) {
     expect_refusal(run("measure", {light.scene, "--points", folder / "points.csv", "--csv", folder / "a.csv"}),
                    "which is no light");
     if (!has_lavapipe()) return;
-    expect_refusal(run("screenshot", {light.scene, "-o", folder / "a.png", "--size", "8x8", "--frames", "1",
+    expect_refusal(run("screenshot", {light.scene, "-o", folder / "a.png", "--size", "8x8", "--samples", "1",
                                       "--ambiance", "all", "--device", "llvmpipe"}),
                    "the picture is not written: ");
     EXPECT_EQ(folder.names(), before);

@@ -1,7 +1,8 @@
 // The same room written down in hard ways has the same light: mean within 1 %, RMSE within twice the noise of two
-// seeds. Prints the rows of the table in docs/robustness.md.
+// seeds, or 4.5 % where light is gathered at nodes. Prints the rows of the table in docs/robustness.md.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -48,12 +49,14 @@ TEST_P(Robustness, TheRoomHasTheSameLight) {
         for (double lux : readings.lux) ASSERT_TRUE(std::isfinite(lux));
         const Difference d = difference(expected(mode).readings, readings, GetParam().scale);
         char wanted[64];
-        std::snprintf(wanted, sizeof wanted, "RMSE <= %.1f %%, bias <= 1 %%", 200 * expected(mode).noise);
+        // Seeds of final gathering differ by less than 1 %, lattices that lie otherwise by more.
+        const double allowed = std::max(2 * expected(mode).noise, mode == gather_mode_cached ? 0.045 : 0.0);
+        std::snprintf(wanted, sizeof wanted, "RMSE <= %.1f %%, bias <= 1 %%", 100 * allowed);
         tell_case(words_of(GetParam().name) + ", " + mode_names[mode], wanted, "RMSE %.1f %%, bias %+.2f %%",
                   100 * d.rmse, 100 * (d.mean_ratio - 1));
         EXPECT_GT(d.compared, 550u) << mode_names[mode];
         EXPECT_NEAR(d.mean_ratio, 1, 0.01) << mode_names[mode];
-        EXPECT_LE(d.rmse, 2 * expected(mode).noise) << mode_names[mode];
+        EXPECT_LE(d.rmse, allowed) << mode_names[mode];
     }
 }
 
