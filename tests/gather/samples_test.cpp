@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "programs/lavapipe.h"
 #include "gather/renderer.h"
 #include "maps/bake.h"
+#include "programs/lavapipe.h"
 #include "scene/gltf.h"
 #include "shaders/color.h"
 #include "trace/build_bvh.h"
@@ -17,7 +17,10 @@ namespace {
 
 /// The Cornell box, whose soft shadows are sampled anew in each view.
 struct Box {
-    Box() : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/cornell.gltf")), caster(scene), map(bake(scene, caster, {.photons = 50'000})) {}
+    Box()
+        : scene(load_gltf(LUMENWALK_SOURCE_DIR "/data/cornell.gltf")),
+          caster(scene),
+          map(bake(scene, caster, {.photons = 50'000})) {}
 
     Rendering render(const Device& device, RenderSettings settings) const {
         const Bvh bvh = build_bvh(scene);
@@ -33,8 +36,8 @@ struct Box {
 std::vector<double> luminances(const Image& image) {
     std::vector<double> values;
     for (size_t i = 0; i < image.pixel_count(); ++i)
-        values.push_back(double(luminance(
-            vec3(image.find("R")->values[i], image.find("G")->values[i], image.find("B")->values[i]))));
+        values.push_back(double(
+            luminance(vec3(image.find("R")->values[i], image.find("G")->values[i], image.find("B")->values[i]))));
     return values;
 }
 
