@@ -16,7 +16,6 @@
 #include "file/map_file.h"
 #include "maps/bake.h"
 #include "maps/bake_memory.h"
-#include "maps/build.h"
 #include "photons/shoot.h"
 #include "scene/load_scene.h"
 #include "shared_options.h"
@@ -65,11 +64,11 @@ std::string misuse_of_radius(const std::string& text) {
     return parse_radius(text) ? "" : "give a positive number of metres, or auto";
 }
 
-void print_lights(const lw::Scene& scene, const lw::Photons& photons) {
+void print_lights(const lw::Scene& scene, const std::vector<lw::LightBalance>& lights) {
     std::printf("%-24s %12s %12s %14s %14s %14s %10s\n", "lamp (unit power)", "emitted", "stored", "flux out lm",
                 "absorbed lm", "escaped lm", "balance");
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const lw::LightBalance& b = photons.lights[i];
+        const lw::LightBalance& b = lights[i];
         const double missing = b.flux_out > 0 ? (b.absorbed + b.escaped) / b.flux_out - 1 : 0;
         std::printf("%-24s %12llu %12llu %14.6g %14.6g %14.6g %+9.1e\n", scene.light_names[i].c_str(),
                     (unsigned long long)b.emitted, (unsigned long long)b.stored, b.flux_out, b.absorbed, b.escaped,
@@ -109,13 +108,15 @@ void bake(const Options& options) {
     clock.finish("load");
     const lw::RayCaster caster(scene);
     clock.finish("hierarchy");
-    const lw::Photons photons = lw::shoot_photons(scene, caster, lw::shoot_settings(settings));
-    clock.finish("trace");
-    const lw::PhotonMap map = lw::build_photon_map(scene, caster, photons, settings);
+    std::vector<lw::LightBalance> lights;
+    const lw::PhotonMap map = lw::bake(scene, caster, settings, [&](const lw::Photons& photons) {
+        clock.finish("trace");
+        lights = photons.lights;
+    });
     clock.finish("maps");
     lw::save_photon_map(output, map);
     clock.finish("write");
-    print_lights(scene, photons);
+    print_lights(scene, lights);
     print_map(map, scene.triangles.size());
     std::printf("wrote %s\n", lw::one_line(output.string()).c_str());
 }

@@ -4,12 +4,12 @@
 
 namespace lw {
 
-ShootSettings shoot_settings(const BakeSettings& settings) {
-    return {.photons = settings.photons, .seed = settings.seed, .direct_in_photons = settings.direct_in_photons};
-}
-
-PhotonMap bake(const Scene& scene, const RayCaster& caster, const BakeSettings& settings) {
-    return build_photon_map(scene, caster, shoot_photons(scene, caster, shoot_settings(settings)), settings);
+PhotonMap bake(const Scene& scene, const RayCaster& caster, const BakeSettings& settings, const PhotonsTraced& traced) {
+    const Photons photons = shoot_photons(
+        scene, caster,
+        {.photons = settings.photons, .seed = settings.seed, .direct_in_photons = settings.direct_in_photons});
+    if (traced) traced(photons);
+    return build_photon_map(scene, caster, photons, settings);
 }
 
 }  // namespace lw

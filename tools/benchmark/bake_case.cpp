@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "file/map_file.h"
-#include "maps/bake.h"
 #include "maps/build.h"
 #include "photons/shoot.h"
 #include "trace/build_bvh.h"
@@ -29,7 +28,10 @@ BakedCase::BakedCase(Scene made, const BakeSettings& settings, const std::filesy
     const std::filesystem::path file = folder / "benchmark.pmap";
     cost.hierarchy = cost_of([&] { caster = std::make_unique<RayCaster>(scene); });
     const double before_mb = reset_peak_memory();
-    cost.trace = cost_of([&] { photons = shoot_photons(scene, *caster, shoot_settings(settings)); });
+    // The two halves of bake(), which the sections time and whose photons they read.
+    const ShootSettings shooting{
+        .photons = settings.photons, .seed = settings.seed, .direct_in_photons = settings.direct_in_photons};
+    cost.trace = cost_of([&] { photons = shoot_photons(scene, *caster, shooting); });
     cost.maps = cost_of([&] { map = build_photon_map(scene, *caster, photons, settings); });
     cost.write = cost_of([&] { save_photon_map(file, map); });
     cost.peak_memory_mb = peak_memory_mb();
