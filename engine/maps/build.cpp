@@ -110,7 +110,9 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     PhotonGrids caustics;
     if (has_caustics) caustics = sort_into_grids({scene, caster, partition, parted.caustic}, packing);
     NodeIrradiance irradiance =
-        find_irradiance({scene, caster, lattice, grids, others, settings.seed, visible_lamps}, caustics);
+        settings.direct_in_photons
+            ? smooth_irradiance(scene, lattice, grids.records)
+            : gather_irradiance({scene, caster, lattice, grids, others, settings.seed, visible_lamps}, caustics);
     SmoothCaustics light{std::move(irradiance), {}};
     if (has_caustics && !settings.direct_in_photons)
         light = add_smooth_caustics(scene, lattice, caustics, std::move(light.irradiance));

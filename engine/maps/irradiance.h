@@ -13,9 +13,11 @@ struct NodeIrradiance {
     float scale = 1;            // so that the brightest fits
 };
 
-/// Where photons do not hold the direct light: reflected light by final gathering, and the direct light of lamps with a
-/// surface; that of other lamps is left to shadow rays. `caustics`: photons whose light is gathered apart, but which
-/// rays see on surfaces. Where photons hold all light (no visible_lamps in `input`): their estimate, smoothed.
-NodeIrradiance find_irradiance(const GatherInput& input, const PhotonGrids& caustics);
+/// Reflected light by final gathering, and the direct light of lamps with a surface; that of other lamps is left to
+/// shadow rays. `caustics`: photons whose light is gathered apart, but which rays see on surfaces.
+NodeIrradiance gather_irradiance(const GatherInput& input, const PhotonGrids& caustics);
+
+/// All light where photons hold the direct light too: their estimate, smoothed. `photons`: in the grids of the lattice.
+NodeIrradiance smooth_irradiance(const Scene& scene, const Lattice& lattice, const PhotonRecords& photons);
 
 }  // namespace lw

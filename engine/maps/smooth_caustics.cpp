@@ -46,17 +46,19 @@ class CausticNodes {
         return true;
     }
 
-    /// Lux of one lamp at a node of grid m for intensity 1, if irradiance_scale is 1, blurred over min_steps at least.
-    vec3 blurred(uint m, uint node, uint lamp) const {
+    /// Lux of each lamp at a node of grid m for intensity 1, if irradiance_scale is 1, blurred over min_steps at least;
+    /// none where no caustics are.
+    std::vector<vec3> blurred(uint m, uint node) const {
         const NodePoint& point = lattice_.nodes[node];
-        if (!point.exists()) return vec3(0);
+        if (!point.exists()) return {};
         const Surface s = surfaces_.surface_at(point.triangle, point.barycentrics);
         const uint own = grid_of(m, point.triangle, s);
-        if (own == no_grid) return vec3(0);
+        if (own == no_grid) return {};
         const SurfaceGrid& grid = caustics_.surfaces.grids[own];
-        const vec3 local = position_in_grid(grid, s.position), step(lattice_.surfaces.grids[m].lattice.step, 0);
+        const vec2 step = lattice_.surfaces.grids[m].lattice.step;
+        const vec3 local = position_in_grid(grid, s.position);
         const float radius = std::max(reader_.caustic_radius(grid, local), min_steps * std::max(step.x, step.y));
-        return light_at_node(m, node, grid, local, std::min(radius, grid.radius))[lamp];
+        return light_at_node(m, node, grid, local, std::min(radius, grid.radius));
     }
 
   private:
@@ -111,16 +113,18 @@ SmoothCaustics add_smooth_caustics(const Scene& scene, const Lattice& lattice, c
     return {std::move(irradiance), std::move(marks)};
 }
 
-std::vector<vec3> estimate_caustics(const Scene& scene, const Lattice& lattice, const PhotonGrids& caustics,
-                                    uint lamp) {
+std::vector<vec3> estimate_caustics(const Scene& scene, const Lattice& lattice, const PhotonGrids& caustics) {
     std::vector<vec3> light;
     if (caustics.surfaces.grids.empty()) return light;
-    light.resize(lattice.nodes.size(), vec3(0));
+    const size_t all_nodes = lattice.nodes.size();
+    light.resize(all_nodes * scene.lights.size(), vec3(0));
     const CausticNodes caustic_nodes(scene, lattice, caustics, 1);
     parallel_for(lattice.surfaces.grids.size(), [&](size_t m) {
         const SurfaceLattice& nodes = lattice.surfaces.grids[m].lattice;
-        for (uint n = nodes.first_node; n < nodes.first_node + nodes.columns * nodes.rows; ++n)
-            light[n] = caustic_nodes.blurred(uint(m), n, lamp);
+        for (uint n = nodes.first_node; n < nodes.first_node + nodes.columns * nodes.rows; ++n) {
+            const std::vector<vec3> of_lamps = caustic_nodes.blurred(uint(m), n);
+            for (size_t lamp = 0; lamp < of_lamps.size(); ++lamp) light[lamp * all_nodes + n] = of_lamps[lamp];
+        }
     });
     return light;
 }
