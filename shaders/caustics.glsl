@@ -29,7 +29,7 @@ void add_caustics(uint triangle, bool front, float left, GridPlace at, Surface s
             PhotonPlace place = photon_place(i);
             vec3 d = place_in_grid(place, grid) - local;
             float d2 = dot(d, d);
-            if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
+            if (d2 >= r2 || !on_same_surface(d.z, d2, grid.radius)) continue;
             add_photon(i, place, kernel_shape(d2 / r2), s, n_geometric, n_shading, to_view, sum);
         }
     }

@@ -58,7 +58,6 @@ struct Frame {
     uint width;
     uint height;
     uint neighbours;
-    float max_radius;  // m
     float inverse_flux_scale;
     uint triangle_limit;  // number of triangles
     uint sample_index;    // sample 0 overwrites the picture, others add to it
@@ -82,7 +81,7 @@ struct Screen {
 static_assert(offsetof(Material, absorption) == 72 && offsetof(Material, base_color_texture) == 84);
 static_assert(sizeof(Material) <= 16 * material_texels && sizeof(Texture) <= 16 * texture_texels);
 static_assert(sizeof(LampPower) == 32 && sizeof(RayPixels) == 16 && sizeof(Screen) == 12);
-static_assert(sizeof(Frame) == 124 && offsetof(Frame, following) == 120);
+static_assert(sizeof(Frame) == 120 && offsetof(Frame, following) == 116);
 }  // namespace lw
 #endif
 #endif

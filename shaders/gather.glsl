@@ -1,14 +1,14 @@
 // Photon density estimation on the 2D grid of one patch (paper, sections 2.1-2.2: Graglia, Sequeira, Mavromatis,
 // Real-Time Walkthrough Rendering, 2012). One text for C++ and GLSL. The including scope provides the functions
 // photon_place, photon_flux, photon_direction, lamp_power, light_at, lattice_light and the constants has_caustics,
-// gather_mode, neighbours, heap_size, max_radius, inverse_flux_scale, inverse_irradiance_scale, has_directions,
+// gather_mode, neighbours, heap_size, inverse_flux_scale, inverse_irradiance_scale, has_directions,
 // has_coverage, has_followed. Needs map_lookup.glsl and bsdf.glsl.
 
 Gathered no_light() LW_MEMBER {
     Gathered nothing;
     nothing.radiance = vec3(0.0f);
     nothing.irradiance = vec3(0.0f);
-    nothing.radius = max_radius;
+    nothing.radius = 0.0f;
     nothing.photons = 0.0f;
     return nothing;
 }
@@ -68,7 +68,7 @@ Gathered gather_exact(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric,
                 for (uint i = span.x; i < span.y; ++i) {
                     vec3 d = place_in_grid(photon_place(i), grid) - local;
                     float d2 = dot(d, d);
-                    if (d2 >= bound || !on_same_surface(d.z, d2, max_radius)) continue;
+                    if (d2 >= bound || !on_same_surface(d.z, d2, grid.radius)) continue;
                     uint hole;
                     if (count < k) {
                         hole = count++;
@@ -133,7 +133,7 @@ Gathered gather_smooth(SurfaceGrid grid, vec3 local, Surface s, vec3 n_geometric
             PhotonPlace place = photon_place(i);
             vec3 d = place_in_grid(place, grid) - local;
             float d2 = dot(d, d);
-            if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
+            if (d2 >= r2 || !on_same_surface(d.z, d2, grid.radius)) continue;
             row.photons += 1.0f;
             add_photon(i, place, kernel_shape(d2 * inverse_r2), s, n_geometric, n_shading, to_view, row);
         }

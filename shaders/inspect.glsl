@@ -50,7 +50,7 @@ Inspected inspect(Seen seen, float dot_reach, uint seed) LW_MEMBER {
         for (uint i = span.x; i < span.y; ++i) {
             vec3 d = place_in_grid(photon_place(i), grid) - local;
             float d2 = dot(d, d);
-            if (d2 >= r2 || !on_same_surface(d.z, d2, max_radius)) continue;
+            if (d2 >= r2 || !on_same_surface(d.z, d2, grid.radius)) continue;
             vec3 flux = unpack_rgb9e5(photon_flux(i)) * lamp_power(light_of(photon_place(i)));
             float lux = dot(flux, weights) * kernel_shape(d2 / r2);
             sum += lux;

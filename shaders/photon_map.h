@@ -198,8 +198,8 @@ LW_INLINE uint path_of(PhotonPlace place) { return place.h_light_and_path >> 30;
 
 /// True when a photon may lie on the same surface as the query. Its height over the query (`height`) may grow with the
 /// distance, as on curved and creased surfaces; a greater height means another, parallel surface.
-LW_INLINE bool on_same_surface(float height, float distance_squared, float max_radius) {
-    float tolerance = 0.01f * max_radius;
+LW_INLINE bool on_same_surface(float height, float distance_squared, float search_radius) {
+    float tolerance = 0.01f * search_radius;
     float excess = max(abs(height) - tolerance, 0.0f);
     return excess * excess <= 0.75f * distance_squared;  // slope of a 60 degree crease
 }

@@ -35,7 +35,6 @@ layout(set = 1, binding = binding_ray_lists, scalar) buffer RayLists { RayPixels
 layout(set = 1, binding = binding_followed, scalar) buffer FollowedPaths { Followed followed[]; };
 layout(set = 1, binding = binding_ray_pixels, scalar) buffer ListedPixels { uint listed_pixels[]; };
 
-#define max_radius frame.max_radius
 #define neighbours frame.neighbours
 #define inverse_flux_scale frame.inverse_flux_scale
 #define ray_epsilon frame.ray_epsilon

@@ -1,5 +1,6 @@
 // lumenwalk-bake: photons of a glTF building into its photon map file.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -79,8 +80,11 @@ void print_lights(const lw::Scene& scene, const std::vector<lw::LightBalance>& l
 
 void print_map(const lw::PhotonMap& map, size_t triangles) {
     const uint64_t bytes = map.bytes();
-    std::printf("%zu triangles, %zu grids, radius %.4g m, %.3f references per photon\n", triangles, map.grids.size(),
-                double(map.settings.radius),
+    float least = 1e30f, largest = 0;
+    for (const lw::SurfaceGrid& grid : map.grids)
+        least = std::min(least, grid.radius), largest = std::max(largest, grid.radius);
+    std::printf("%zu triangles, %zu grids, %zu nodes, radius %.2g to %.2g m, %.3f references per photon\n", triangles,
+                map.grids.size(), map.coverage.size(), double(std::min(least, largest)), double(largest),
                 double(map.places.size()) / double(std::max<uint64_t>(map.stored_photons, 1)));
     if (map.caustic_grids > 0)
         std::printf(
@@ -103,10 +107,10 @@ void bake(const Options& options) {
     const lw::Scene scene = lw::load_scene(options.scene, options.photometry);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     lw::check_can_create(output, scene.files);
-    lw::check_bake_fits(scene, settings,
-                        options.memory_gb > 0 ? uint64_t(options.memory_gb * 1e9) : lw::available_memory());
     clock.finish("load");
     const lw::RayCaster caster(scene);
+    lw::check_bake_fits(scene, caster, settings,
+                        options.memory_gb > 0 ? uint64_t(options.memory_gb * 1e9) : lw::available_memory());
     clock.finish("hierarchy");
     std::vector<lw::LightBalance> lights;
     const lw::PhotonMap map = lw::bake(scene, caster, settings, [&](const lw::Photons& photons) {

@@ -34,7 +34,7 @@ lw::PhotonMap map_of(const lw::MeasureOptions& o, const lw::Scene& scene, const 
     if (o.photons == 0 && !starts_anew) return lw::load_photon_map(path, scene);
     lw::BakeSettings settings;
     settings.photons = o.photons > 0 ? o.photons : photons_to_start_with;
-    lw::check_bake_fits(scene, settings, lw::available_memory());
+    lw::check_bake_fits(scene, caster, settings, lw::available_memory());
     return lw::bake(scene, caster, settings);
 }
 

@@ -87,7 +87,7 @@ Header read_header(std::ifstream& in, const std::filesystem::path& path, uint64_
         left -= bytes;
     }
     if (left) refuse(path, "it has bytes after its last section");
-    if (!(header.radius > 0) || !is_place(header.radius) || !is_scale(header.flux_scale) ||
+    if (!(header.radius >= 0) || !is_place(header.radius) || !is_scale(header.flux_scale) ||
         !is_scale(header.irradiance_scale))
         refuse(path, "its radius, flux scale or irradiance scale is not valid");
     if (!(header.neighbour_angle_deg >= 0 && header.neighbour_angle_deg <= 90) || header.direct_in_photons > 1)

@@ -38,7 +38,6 @@ FrameConstants constants_for(const Resident& resident, const GatherSettings& set
 
 Frame with_gather(Frame frame, const Resident& resident, const GatherSettings& settings, uint lamps) {
     frame.neighbours = std::max(1u, settings.neighbours);
-    frame.max_radius = resident.max_radius();
     frame.inverse_flux_scale = resident.inverse_flux_scale();
     frame.ray_epsilon = resident.ray_epsilon();
     frame.scene_size = resident.scene_size();

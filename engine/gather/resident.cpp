@@ -43,7 +43,6 @@ Resident::Resident(const Device& device, const Scene& scene, const PhotonMap& ma
       map_(&map),
       max_texels_(settings.texels ? settings.texels : device.limits().maxTexelBufferElements),
       triangle_count_(uint(scene.triangles.size())),
-      max_radius_(map.settings.radius),
       inverse_flux_scale_(1.0f / map.flux_scale),
       ray_epsilon_(scene.ray_epsilon()),
       scene_size_(scene.size()),

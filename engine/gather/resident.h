@@ -53,7 +53,6 @@ class Resident {
     /// True when rays are traced by the device's ray queries.
     bool queries_rays() const { return queries_rays_; }
     uint triangle_count() const { return triangle_count_; }
-    float max_radius() const { return max_radius_; }    // m, the largest search radius of the map
     float ray_epsilon() const { return ray_epsilon_; }  // m, as Scene::ray_epsilon()
     float scene_size() const { return scene_size_; }    // m, as Scene::size()
     /// Irradiance at the corners of lattice cells, as the device keeps it for a setting, times this is lux.
@@ -94,7 +93,6 @@ class Resident {
     uint64_t max_texels_;
     FrameConstants constants_;
     uint triangle_count_;
-    float max_radius_;
     float inverse_flux_scale_;
     float ray_epsilon_;
     float scene_size_;

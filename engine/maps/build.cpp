@@ -21,13 +21,6 @@ double area_of(const Scene& scene) {
     return area;
 }
 
-float automatic_radius(const Scene& scene, uint64_t photons) {
-    const double area = area_of(scene);
-    const float half_diagonal = 0.5f * length(scene.bounds[1] - scene.bounds[0]);
-    const double wanted = std::sqrt(250 * area / (double(lw_pi) * double(std::max<uint64_t>(photons, 1))));
-    return std::min(float(wanted), half_diagonal);
-}
-
 namespace {
 
 /// Refuses a radius so small that the lattices, which follow it, would take hours and all the memory.
@@ -48,13 +41,10 @@ float flux_scale_of(const std::vector<Photon>& photons) {
     return top > 0 ? std::exp2(12 - std::ceil(std::log2(top))) : 1.0f;
 }
 
-/// The settings with the radius that is used.
+/// The settings with the radius that is used, if one is given.
 BakeSettings with_radius(const Scene& scene, const Photons& photons, BakeSettings settings) {
-    if (settings.radius > 0 && !photons.records.empty())
-        check_radius(scene, settings.radius);
-    else if (!(settings.radius > 0))
-        settings.radius = automatic_radius(scene, photons.records.size());
-    settings.radius = std::min(settings.radius, scene.size());  // nothing is farther
+    if (settings.radius > 0 && !photons.records.empty()) check_radius(scene, settings.radius);
+    settings.radius = clamp(settings.radius, 0.0f, scene.size());  // nothing is farther
     return settings;
 }
 
@@ -95,7 +85,10 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
     const PartedPhotons parted = has_caustics ? part_caustics(photons.records) : PartedPhotons();
     const std::vector<Photon>& others = has_caustics ? parted.others : photons.records;
 
-    const Partition partition = limit_references(scene, caster, photons.records, partition_surfaces(scene, settings));
+    Partition partition = partition_surfaces(scene, caster, settings);
+    if (!(settings.radius > 0))
+        lower_radii(scene, photons.records, settings.direct_in_photons ? Follow::photons : Follow::surroundings,
+                    partition);
     RecordSettings with_lattice = packing;
     with_lattice.empty_grids = !settings.direct_in_photons;
     PhotonGrids grids = sort_into_grids({scene, caster, partition, others}, with_lattice);
@@ -108,7 +101,10 @@ PhotonMap build_photon_map(const Scene& scene, const RayCaster& caster, const Ph
         shadow_masks = find_shadow_masks(scene, caster, lattice, visible_lamps);
     }
     PhotonGrids caustics;
-    if (has_caustics) caustics = sort_into_grids({scene, caster, partition, parted.caustic}, packing);
+    if (has_caustics) {
+        if (!(settings.radius > 0)) lower_radii(scene, parted.caustic, Follow::photons, partition);
+        caustics = sort_into_grids({scene, caster, partition, parted.caustic}, packing);
+    }
     NodeIrradiance irradiance =
         settings.direct_in_photons
             ? smooth_irradiance(scene, lattice, grids.records)

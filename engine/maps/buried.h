@@ -6,7 +6,7 @@
 namespace lw {
 
 /// Surfaces closer than this under another one get no light.
-inline float clearance_of(float radius) { return 0.25f * radius; }
+inline float clearance_of(float scale) { return 0.25f * scale; }
 
 struct BuryingTest {
     float clearance;  // m

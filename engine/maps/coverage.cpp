@@ -50,7 +50,7 @@ class GridSamples {
     }
 
     /// The sum over samples of area x kernel at the point `local`, for the kernels of all levels: the coverage.
-    CoverageLevels sum_kernels(vec3 local, float max_radius) const {
+    CoverageLevels sum_kernels(vec3 local) const {
         CoverageLevels sums{};
         const int x0 = std::max(column(local.x - radius_), 0), x1 = std::min(column(local.x + radius_), columns_ - 1);
         const int y0 = std::max(row(local.y - radius_), 0), y1 = std::min(row(local.y + radius_), rows_ - 1);
@@ -58,7 +58,7 @@ class GridSamples {
             const size_t line = size_t(y) * size_t(columns_);
             const uint last = starts_[line + size_t(x1) + 1];
             for (uint i = starts_[line + size_t(x0)]; i < last; i += run_length)
-                add_run(i, std::min(last - i, run_length), local, max_radius, sums);
+                add_run(i, std::min(last - i, run_length), local, sums);
         }
         return sums;
     }
@@ -71,13 +71,14 @@ class GridSamples {
     }
 
     /// Adds a run of samples, one level after the other, without branches, so that the loops become vector code.
-    LW_WIDE_VECTORS void add_run(uint first, uint count, vec3 local, float max_radius, CoverageLevels& sums) const {
+    LW_WIDE_VECTORS void add_run(uint first, uint count, vec3 local, CoverageLevels& sums) const {
+        const float radius = radius_;
         std::array<float, run_length> squared{}, areas{};
         const float *u = &u_[first], *v = &v_[first], *h = &h_[first], *area = &area_[first];
         for (uint i = 0; i < count; ++i) {
             const float du = u[i] - local.x, dv = v[i] - local.y, dh = h[i] - local.z;
             squared[i] = du * du + dv * dv + dh * dh;
-            areas[i] = area[i] * same_surface_weight(dh, squared[i], max_radius);
+            areas[i] = area[i] * same_surface_weight(dh, squared[i], radius);
         }
         for (uint level = 0; level < coverage_levels; ++level) {
             std::array<float, lanes> parts{};
@@ -119,7 +120,7 @@ void sample_coverage(const CoverageInput& input, const std::vector<std::vector<u
         for (uint n : nodes_of_grid[m]) {
             const vec2 at = lattice.low + vec2(float(n % lattice.columns), float(n / lattice.columns)) * lattice.step;
             const uint node = lattice.first_node + n;
-            coverage[node] = own.sum_kernels(vec3(at, input.nodes.points[node].height), input.partition.radius);
+            coverage[node] = own.sum_kernels(vec3(at, input.nodes.points[node].height));
         }
     });
 }
@@ -139,15 +140,16 @@ std::vector<uint> cover_flat_nodes(const CoverageInput& input, size_t m, std::ve
 /// What samples are wanted for: the neighbourhoods of these nodes of each grid.
 WantedSamples samples_for(const CoverageInput& input, const std::vector<std::vector<uint>>& nodes_of_grid) {
     const PatchGrids& surfaces = input.nodes.surfaces;
-    WantedSamples wanted{input.partition, std::vector<char>(input.partition.patches.count, 0),
-                         Neighbourhoods(1.01f * input.partition.radius)};
+    WantedSamples wanted{input.partition, std::vector<char>(input.partition.patches.count, 0), {}};
     for (size_t m = 0; m < nodes_of_grid.size(); ++m) {
         wanted.is_wanted[surfaces.patches[m]] = !nodes_of_grid[m].empty();
         const SurfaceLattice& lattice = surfaces.grids[m].lattice;
-        for (uint i : nodes_of_grid[m])
-            wanted.neighbourhoods.add(point_on_lattice(surfaces.grids[m],
-                                                       vec2(float(i % lattice.columns), float(i / lattice.columns)),
-                                                       input.nodes.points[lattice.first_node + i].height));
+        for (uint i : nodes_of_grid[m]) {
+            const vec2 cells(float(i % lattice.columns), float(i / lattice.columns));
+            const float height = input.nodes.points[lattice.first_node + i].height;
+            wanted.neighbourhoods.add(point_on_lattice(surfaces.grids[m], cells, height),
+                                      1.01f * surfaces.grids[m].radius);
+        }
     }
     return wanted;
 }
@@ -155,13 +157,10 @@ WantedSamples samples_for(const CoverageInput& input, const std::vector<std::vec
 }  // namespace
 
 std::vector<uint> find_coverage(const CoverageInput& input) {
-    const float radius = input.partition.radius;
     std::vector<CoverageLevels> coverage(input.nodes.points.size(), CoverageLevels{1, 1, 1, 1});
     std::vector<std::vector<uint>> others(input.nodes.surfaces.grids.size());
     parallel_for(others.size(), [&](size_t m) { others[m] = cover_flat_nodes(input, m, coverage); });
-    const std::vector<Photon> samples =
-        sample_surfaces(input.scene, input.caster, samples_for(input, others),
-                        {.area = 0.03f * radius * radius, .clearance = clearance_of(radius)});
+    const std::vector<Photon> samples = sample_surfaces(input.scene, input.caster, samples_for(input, others));
     sample_coverage(input, others, samples, coverage);
     std::vector<uint> packed;
     packed.reserve(coverage.size());

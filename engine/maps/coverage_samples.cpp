@@ -1,12 +1,14 @@
 #include "maps/coverage_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "base/parallel.h"
 #include "base/random.h"
 #include "maps/buried.h"
+#include "maps/surroundings.h"
 #include "scene/triangle.h"
 #include "trace/sampling.h"
 
@@ -14,32 +16,90 @@ namespace lw {
 namespace {
 
 constexpr double samples_of_patch = 64;
-constexpr float plane_spread = 0.999f;  // least cosine between normals of a plane patch
+constexpr double max_samples_of_patch = 2e6;
+// Of the square of a radius; on curved patches, whose coverage has no closed form anywhere, the smallest kernel needs
+// more than seven samples.
+constexpr float area_of_sample = 0.03f, area_on_curved = 0.01f;
 
-/// The area a sample of each triangle stands for: at most `area`, a third of it on curved patches, whose coverage has
-/// no closed form anywhere; and a patch has at least samples_of_patch.
-std::vector<float> areas_of_samples(const Scene& scene, const Partition& partition, float area) {
-    const Patches& patches = partition.patches;
-    const auto is_curved = [&](size_t side) {
-        const uint id = patches.of_side[side];
-        return !is_cut(id) && partition.shapes[id].cos_spread < plane_spread;
-    };
-    std::vector<double> patch_areas(patches.count, 0),
-        cut_areas(patches.cuts.size(), 0);  // of the whole when it is cut
-    const auto area_of_side = [&](size_t side) -> double& {
-        const uint id = patches.of_side[side];
-        return is_cut(id) ? cut_areas[id & ~cut_bit] : patch_areas[id];
-    };
-    for (size_t t = 0; t < scene.triangles.size(); ++t)
-        for (size_t side = 2 * t; side < 2 * t + 2; ++side) area_of_side(side) += triangle_area(scene, t);
-    std::vector<float> areas(scene.triangles.size());
-    for (size_t t = 0; t < areas.size(); ++t) {
-        const double smaller = std::min(area_of_side(2 * t), area_of_side(2 * t + 1));
-        const float wanted = is_curved(2 * t) || is_curved(2 * t + 1) ? area / 3 : area;
-        areas[t] = std::max(1e-20f, std::min(wanted, float(smaller / samples_of_patch)));
+bool is_curved(const PatchShape& shape) { return shape.cos_spread < 0.999f; }
+constexpr float least_of_own = 0.4f;  // radius that samples are made for, else too many lie in wide kernels
+
+/// A triangle, or a part of one, on one side of a surface, all on one patch.
+struct Plot {
+    std::array<vec3, 3> corners;
+    uint side, patch;
+    uint samples = 0;
+
+    float area() const { return 0.5f * length(edge_product(corners[0], corners[1], corners[2])); }
+};
+
+using Polygon = std::vector<vec3>;
+
+/// The part of a convex polygon on the front of a cut, or on its back.
+Polygon part_of(const Polygon& polygon, const Cut& cut, bool front) {
+    Polygon part;
+    const auto height = [&](vec3 p) { return dot(p - cut.point, cut.normal) * (front ? 1.0f : -1.0f); };
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const vec3 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
+        const float hp = height(p), hq = height(q);
+        if (hp >= 0) part.push_back(p);
+        if ((hp > 0 && hq < 0) || (hp < 0 && hq > 0)) part.push_back(p + (q - p) * (hp / (hp - hq)));
     }
-    return areas;
+    return part;
 }
+
+/// Appends the plots of a polygon on a side whose patch or cut is `id`.
+void add_plots(const Patches& patches, uint side, uint id, const Polygon& polygon, std::vector<Plot>& plots) {
+    if (polygon.size() < 3) return;
+    if (is_cut(id)) {
+        const Cut& cut = patches.cuts[id & ~cut_bit];
+        add_plots(patches, side, cut.front, part_of(polygon, cut, true), plots);
+        add_plots(patches, side, cut.back, part_of(polygon, cut, false), plots);
+        return;
+    }
+    for (size_t i = 2; i < polygon.size(); ++i) plots.push_back({{polygon[0], polygon[i - 1], polygon[i]}, side, id});
+}
+
+/// All plots on patches near which samples are wanted; the areas of all patches, and the area that a sample on each
+/// stands for, m2, which is 0 where none is wanted.
+struct Plots {
+    explicit Plots(const Scene& scene, const WantedSamples& wanted) : shares(wanted.partition.patches.count, 0.0f) {
+        const Patches& patches = wanted.partition.patches;
+        for (uint p = 0; p < patches.count; ++p)
+            shares[p] = (is_curved(wanted.partition.shapes[p]) ? area_on_curved : area_of_sample) *
+                        wanted.least_radius(p) * wanted.least_radius(p);
+        for (size_t side = 0; side < patches.of_side.size(); ++side) {
+            const uint id = patches.of_side[side];
+            if (!is_cut(id) && shares[id] <= 0) continue;
+            const auto [a, b, c] = triangle_corners(scene, side / 2);
+            const size_t first = all.size();
+            add_plots(patches, uint(side), id, {a, b, c}, all);
+            if (is_cut(id))
+                all.erase(std::remove_if(all.begin() + int64_t(first), all.end(),
+                                         [&](const Plot& plot) { return shares[plot.patch] <= 0; }),
+                          all.end());
+        }
+        count_samples();
+    }
+
+    std::vector<Plot> all;
+    std::vector<float> shares;
+
+  private:
+    void count_samples() {
+        std::vector<double> areas(shares.size(), 0), waiting(shares.size(), 0.5);
+        for (const Plot& plot : all) areas[plot.patch] += double(plot.area());
+        for (size_t p = 0; p < shares.size(); ++p)
+            shares[p] = float(std::clamp(double(shares[p]), std::max(1e-20, areas[p] / max_samples_of_patch),
+                                         std::max(1e-20, areas[p] / samples_of_patch)));
+        for (Plot& plot : all) {
+            double& left = waiting[plot.patch];
+            left += double(plot.area()) / double(shares[plot.patch]);
+            plot.samples = uint(left);
+            left -= plot.samples;
+        }
+    }
+};
 
 /// True when another triangle lies in the same place and is the one that rays meet there: it holds the photons, and
 /// only its samples count. Without this, duplicate or overlapping triangles would be dark: more area, not more photons.
@@ -48,81 +108,71 @@ bool is_overlaid(const RayCaster& caster, vec3 point, vec3 normal, uint triangle
     return hit && hit->triangle != triangle;
 }
 
-}  // namespace
-
-uint64_t Neighbourhoods::bit_of(vec3 cell) const {
-    const uint64_t x = uint64_t(uint32_t(int(cell.x))), y = uint64_t(uint32_t(int(cell.y))), z = uint64_t(int(cell.z));
-    return mix64((x << 32 | y) ^ z * 0x9e3779b97f4a7c15ull) % bit_count;
+/// The samples of a plot.
+void sample_plot(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted, const Plot& plot,
+                 float share, std::vector<Photon>& samples) {
+    const auto& [p0, p1, p2] = plot.corners;
+    const vec3 product = edge_product(p0, p1, p2) * (plot.side % 2 ? -1.0f : 1.0f), normal = normalize(product);
+    const uint64_t seed = seed_of(scene.origin, plot.corners) + plot.side % 2;
+    const float clearance = clearance_of(wanted.partition.scales[plot.patch]);
+    for (uint i = 0; i < plot.samples; ++i) {
+        const vec2 place = sample_triangle(sobol_owen(i, 0, uint32_t(seed)), sobol_owen(i, 1, uint32_t(seed)));
+        const vec3 position = (1 - place.x - place.y) * p0 + place.x * p1 + place.y * p2;
+        if (!wanted.neighbourhoods.contain(position) || !wanted.contain(plot.patch, position)) continue;
+        if (is_overlaid(caster, position, normal, plot.side / 2)) continue;
+        Rng rng(1, seed, i);
+        if (is_buried(caster, position, normal, {clearance}, rng)) continue;
+        samples.push_back(
+            {position, vec3(share), normal, plot.side / 2, pack_origin(0, path_direct, plot.side % 2 != 0)});
+    }
 }
 
-void Neighbourhoods::add(vec3 point) {
-    const vec3 low = floor(point / radius_) - 1.0f,
-               high = floor(point / radius_) + 1.0f;  // cells as wide as the radius
+}  // namespace
+
+uint64_t Neighbourhoods::bit_of(vec3 cell, int level) {
+    const uint64_t x = uint64_t(uint32_t(int(cell.x))), y = uint64_t(uint32_t(int(cell.y))), z = uint64_t(int(cell.z));
+    return (mix64((x << 32 | y) ^ z * 0x9e3779b97f4a7c15ull) + uint64_t(level + 128) * 0x9e3779b9ull) % bit_count;
+}
+
+void Neighbourhoods::add(vec3 point, float radius) {
+    const int level = int(std::ceil(std::log2(radius)));
+    if (std::find(levels_.begin(), levels_.end(), level) == levels_.end()) levels_.push_back(level);
+    const float size = std::ldexp(1.0f, level);  // at least as wide as the radius
+    const vec3 low = floor(point / size) - 1.0f, high = floor(point / size) + 1.0f;
     for (float z = low.z; z <= high.z; ++z)
         for (float y = low.y; y <= high.y; ++y)
             for (float x = low.x; x <= high.x; ++x) {
-                const uint64_t bit = bit_of({x, y, z});
+                const uint64_t bit = bit_of({x, y, z}, level);
                 bits_[bit / 64] |= 1ull << bit % 64;
             }
 }
 
 bool Neighbourhoods::contain(vec3 point) const {
-    const uint64_t bit = bit_of(floor(point / radius_));
-    return bits_[bit / 64] >> bit % 64 & 1;
+    return std::any_of(levels_.begin(), levels_.end(), [&](int level) {
+        const uint64_t bit = bit_of(floor(point * std::ldexp(1.0f, -level)), level);
+        return (bits_[bit / 64] >> bit % 64 & 1) != 0;
+    });
 }
 
-bool WantedSamples::contain(size_t side, vec3 position) const {
-    const uint own = partition.patches.at(side, position);
-    const auto near = partition.neighbours.near(own, position);
-    return is_wanted[own] || std::any_of(near.begin(), near.end(), [&](uint patch) { return is_wanted[patch]; });
+bool WantedSamples::contain(uint patch, vec3 position) const {
+    const auto near = partition.neighbours.near(patch, position);
+    return is_wanted[patch] || std::any_of(near.begin(), near.end(), [&](uint p) { return is_wanted[p]; });
 }
 
-std::vector<char> WantedSamples::sides() const {
-    const Patches& patches = partition.patches;
-    std::vector<char> near(patches.count), wanted;
-    for (uint patch = 0; patch < patches.count; ++patch) {
-        const auto all = partition.neighbours.of(patch);
-        near[patch] = is_wanted[patch] || std::any_of(all.begin(), all.end(), [&](uint p) { return is_wanted[p]; });
-    }
-    for (uint patch : patches.of_side) wanted.push_back(is_cut(patch) || near[patch]);  // a cut: its pieces
-    return wanted;
+float WantedSamples::least_radius(uint patch) const {
+    float least = is_wanted[patch] ? partition.radii[patch] : 1e30f;
+    for (uint p : partition.neighbours.of(patch))
+        if (is_wanted[p]) least = std::min(least, partition.radii[p]);
+    return least < 1e30f ? std::max(least, least_of_own * partition.radii[patch]) : 0.0f;
 }
 
-std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted,
-                                    SampleSettings settings) {
+std::vector<Photon> sample_surfaces(const Scene& scene, const RayCaster& caster, const WantedSamples& wanted) {
     constexpr size_t chunk = 1024;
-    const std::vector<float> shares = areas_of_samples(scene, wanted.partition, settings.area);
-    const std::vector<char> sides = wanted.sides();
-    std::vector<uint> counts(scene.triangles.size());
-    double waiting = 0.5;
-    for (size_t t = 0; t < counts.size(); ++t) {
-        waiting += triangle_area(scene, t) / double(shares[t]);
-        counts[t] = uint(waiting);
-        waiting -= counts[t];
-    }
-    std::vector<std::vector<Photon>> chunks((counts.size() + chunk - 1) / chunk);
+    const Plots plots(scene, wanted);
+    std::vector<std::vector<Photon>> chunks((plots.all.size() + chunk - 1) / chunk);
     parallel_for(chunks.size(), [&](size_t k) {
-        for (size_t t = k * chunk; t < std::min(counts.size(), (k + 1) * chunk); ++t) {
-            if (!sides[2 * t] && !sides[2 * t + 1]) continue;
-            const auto scramble = uint32_t(mix64(t));
-            const auto [p0, p1, p2] = triangle_corners(scene, t);
-            const vec3 product = edge_product(p0, p1, p2);
-            for (uint i = 0; i < counts[t]; ++i) {
-                const vec2 place = sample_triangle(sobol_owen(i, 0, scramble), sobol_owen(i, 1, scramble));
-                const vec3 position = (1 - place.x - place.y) * p0 + place.x * p1 + place.y * p2;
-                if (!wanted.neighbourhoods.contain(position)) continue;
-                const bool wanted_sides[] = {wanted.contain(2 * t, position), wanted.contain(2 * t + 1, position)};
-                if (!wanted_sides[0] && !wanted_sides[1]) continue;
-                if (is_overlaid(caster, position, normalize(product), uint(t))) continue;
-                for (uint side = 0; side < 2; ++side) {
-                    if (!wanted_sides[side]) continue;
-                    const vec3 n = product / (side ? -length(product) : length(product));
-                    Rng rng(1, 2 * t + side, i);
-                    if (is_buried(caster, position, n, {settings.clearance}, rng)) continue;
-                    chunks[k].push_back({position, vec3(shares[t]), n, uint(t), pack_origin(0, path_direct, side)});
-                }
-            }
-        }
+        for (size_t i = k * chunk; i < std::min(plots.all.size(), (k + 1) * chunk); ++i)
+            sample_plot(scene, caster, wanted, plots.all[i], plots.shares[plots.all[i].patch], chunks[k]);
     });
     std::vector<Photon> samples;
     samples.reserve(std::accumulate(chunks.begin(), chunks.end(), size_t(0),

@@ -5,8 +5,11 @@
 
 namespace lw {
 
-/// Cuts the patches wider than the largest search `radius` (m) along all walls that stand on them (find_walls()).
-/// Appends the pieces to `patches` and `shapes`; at most 255 cuts and 48 of them one after the other for one patch.
-void cut_patches(const Scene& scene, float radius, Patches& patches, std::vector<PatchShape>& shapes);
+/// The piece of a plane patch inside an outline of its plane.
+PatchShape piece_of(const PatchShape& whole, const std::vector<vec2>& outline);
+
+/// Cuts the patches wider than their scale along all walls that stand on them (find_walls()). Appends the pieces, which
+/// keep the scale; at most 255 cuts for one patch, and 48 of all cuts one after the other.
+void cut_patches(const Scene& scene, ScaledPatches& scaled);
 
 }  // namespace lw

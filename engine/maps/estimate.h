@@ -136,7 +136,7 @@ class GatherText : public SurfaceReader {
     std::vector<uvec4> lattice_light_;    // cached mode only
     float inverse_irradiance_scale = 1;
 
-    float max_radius = map_.settings.radius, inverse_flux_scale = 1.0f / map_.flux_scale;
+    float inverse_flux_scale = 1.0f / map_.flux_scale;
     bool has_directions = map_.has_directions(), has_coverage = map_.has_coverage();
     bool has_caustics = map_.caustic_grids > 0, has_smooth_caustics = !map_.smooth_caustics.empty();
     bool has_visible_lamps = map_.has_visible_lamps() && !map_.irradiance.empty();

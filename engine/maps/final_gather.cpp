@@ -17,7 +17,7 @@ namespace lw {
 namespace {
 
 constexpr float rays_per_photon = 0.5f;  // around a node, of the lamp
-constexpr float min_rays = 8, max_rays = 64;
+constexpr float min_rays = 4, max_rays = 64;
 constexpr uint probing_rays = 8;  // from some nodes of a patch without photons, to learn whether it is dark
 constexpr size_t probed_nodes = 5;
 constexpr float rays_count_up_to = 3;  // times the mean of a patch: brighter surfaces are left to photons
@@ -38,7 +38,7 @@ class NodeGather {
           estimate_(known.estimate),
           surfaces_(input.scene),
           light_(input.scene, input.lattice, input.visible_lamps, known.lamp, known.seen),
-          reader_{input.photons.records, input.lattice.radius},
+          reader_{input.photons.records},
           reflector_light_(input.traced.size(), 0) {
         parallel_for(
             input.traced.size(), [&](size_t i) { reflector_light_[i] = light_of_reflector(input.traced[i]); }, 4096);

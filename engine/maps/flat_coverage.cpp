@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "maps/buried.h"
 #include "scene/triangle.h"
 
 namespace lw {
@@ -13,7 +14,7 @@ constexpr uint block_side = 8;  // nodes across a block that is looked at as a w
 constexpr uint min_block = 2;
 constexpr size_t max_triangles = 48;    // around a block; more are sampled faster
 constexpr float flatness = 2e-3f;       // radii: heights of what lies in the plane
-constexpr float burying_reach = 1.3f;   // radii: how far is_buried() looks sideways from the rim of a kernel
+constexpr float burying_reach = 1.3f;   // scales: how far is_buried() looks sideways from the rim of a kernel
 constexpr float parallel_walls = 0.9f;  // cosine between walls that may leave a slit
 
 using Polygon = std::vector<vec2>;
@@ -72,7 +73,8 @@ class Ground {
           caster_(input.caster),
           grid_(input.nodes.surfaces.grids[m]),
           shape_(input.partition.shapes[input.nodes.surfaces.patches[m]]),
-          radius_(input.partition.radius),
+          radius_(grid_.radius),
+          scale_(input.partition.scales[input.nodes.surfaces.patches[m]]),
           cos_angle_(std::cos(glm::radians(input.partition.neighbour_angle_deg))) {
         limit_support();
     }
@@ -80,7 +82,7 @@ class Ground {
     /// The polygons of the plane at `height` around the rectangle [low, high], clipped to where the patch refers to
     /// photons; nullopt when the ground is not as simple as that.
     std::optional<std::vector<Polygon>> look(vec2 low, vec2 high, float height) {
-        const float reach = (1 + burying_reach) * radius_;
+        const float reach = radius_ + burying_reach * scale_;
         const vec3 middle(0.5f * (low + high), height);
         const vec3 centre = position_of(grid_, middle);
         if (!caster_.triangles_around(centre, length(0.5f * (high - low) + reach), max_triangles, found_))
@@ -126,7 +128,8 @@ class Ground {
     bool add(uint triangle, vec2 low, vec2 high, float height, std::vector<Polygon>& flats, std::vector<Wall>& walls) {
         std::array<vec3, 3> p = corners_of(triangle);
         const vec3 least = min(p[0], min(p[1], p[2])), most = max(p[0], max(p[1], p[2]));
-        if (most.x < low.x || most.y < low.y || least.x > high.x || least.y > high.y || least.z > height + radius_ ||
+        const float above = std::max(radius_, clearance_of(scale_));
+        if (most.x < low.x || most.y < low.y || least.x > high.x || least.y > high.y || least.z > height + above ||
             most.z < height - radius_)
             return true;
         const vec3 product = edge_product(p[0], p[1], p[2]);
@@ -164,7 +167,7 @@ class Ground {
     const RayCaster& caster_;
     const SurfaceGrid& grid_;
     const PatchShape& shape_;
-    float radius_, cos_angle_;
+    float radius_, scale_, cos_angle_;
     std::vector<std::pair<vec2, vec2>> support_;  // a point of each line, and its direction with the inside on the left
     std::vector<uint> found_;
 };

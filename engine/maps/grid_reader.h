@@ -9,7 +9,6 @@ namespace lw {
 /// Records must outlive it.
 struct GridReader {
     const PhotonRecords& records;
-    float max_radius;       // largest search radius of the map, m
     uint neighbours = 300;  // photons that bandwidth_from_counts() wants under a kernel
 
     uint cell_start(uint cell) const { return records.cell_starts[cell]; }
@@ -28,7 +27,7 @@ struct GridReader {
                 const PhotonPlace place = records.places[i];
                 const vec3 d = place_in_grid(place, grid) - local;
                 const float d2 = dot(d, d);
-                if (d2 < radius * radius && on_same_surface(d.z, d2, max_radius)) visit(i, place, d2);
+                if (d2 < radius * radius && on_same_surface(d.z, d2, grid.radius)) visit(i, place, d2);
             }
         }
     }

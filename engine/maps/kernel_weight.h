@@ -11,8 +11,8 @@ inline float positive(float value) { return value > 0 ? value : 0.0f; }
 inline float kernel_weight(float part) { return positive(kernel_shape(part)); }
 
 /// on_same_surface() as 1 or 0.
-inline float same_surface_weight(float height, float distance_squared, float max_radius) {
-    const float above = positive((height < 0 ? -height : height) - 0.01f * max_radius);
+inline float same_surface_weight(float height, float distance_squared, float search_radius) {
+    const float above = positive((height < 0 ? -height : height) - 0.01f * search_radius);
     return float(above * above <= 0.75f * distance_squared);
 }
 

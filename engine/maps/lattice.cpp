@@ -10,15 +10,17 @@
 namespace lw {
 namespace {
 
-constexpr int rays_to_open = 4;      // that must all be short before a node counts as buried
-constexpr float nodes_apart = 0.5f;  // search radii between the nodes of a lattice
+constexpr int rays_to_open = 4;   // that must all be short before a node counts as buried
+constexpr float burying = 0.15f;  // scales: what is closer to a node buries it
 
-/// Which nodes lie under something that rests on their surface, closer than `clearance` m.
-std::vector<char> find_buried(const Scene& scene, const RayCaster& caster, const Nodes& nodes, float clearance) {
+/// Which nodes lie under something that rests on their surface.
+std::vector<char> find_buried(const Scene& scene, const RayCaster& caster, const Partition& partition,
+                              const Nodes& nodes) {
     const SurfaceReader surfaces(scene);
     std::vector<char> buried(nodes.points.size(), 0);
     parallel_for(nodes.surfaces.grids.size(), [&](size_t m) {
         const SurfaceGrid& grid = nodes.surfaces.grids[m];
+        const float clearance = burying * partition.scales[nodes.surfaces.patches[m]];
         const uint end = grid.lattice.first_node + grid.lattice.columns * grid.lattice.rows;
         for (uint n = grid.lattice.first_node; n < end; ++n) {
             if (!nodes.points[n].exists()) continue;
@@ -34,11 +36,10 @@ std::vector<char> find_buried(const Scene& scene, const RayCaster& caster, const
 }  // namespace
 
 Lattice lay_lattice(const Scene& scene, const RayCaster& caster, const Partition& partition, PatchGrids surfaces) {
-    Nodes nodes = lay_nodes(scene, partition, std::move(surfaces), nodes_apart * partition.radius);
+    Nodes nodes = lay_nodes(scene, partition, std::move(surfaces));
     std::vector<uint> coverage = find_coverage({scene, caster, partition, nodes});
-    std::vector<char> buried = find_buried(scene, caster, nodes, 0.15f * partition.radius);
+    std::vector<char> buried = find_buried(scene, caster, partition, nodes);
     return {.surfaces = std::move(nodes.surfaces),
-            .radius = partition.radius,
             .nodes = std::move(nodes.points),
             .coverage = std::move(coverage),
             .buried = std::move(buried)};

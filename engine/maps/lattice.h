@@ -8,13 +8,12 @@ namespace lw {
 
 struct Lattice {
     PatchGrids surfaces;           // the grids, each with its lattice
-    float radius = 0;              // largest search radius, m
     std::vector<NodePoint> nodes;  // those of a lattice begin at its first_node
     std::vector<uint> coverage;    // of each node, see unpack_coverage()
     std::vector<char> buried;      // of each node: 1 where no light gets, as something lies on the surface
 };
 
-/// Lays a lattice over the patch of every grid, a node every half of the largest radius, and finds the coverage of the
+/// Lays a lattice over the patch of every grid, a node every half of its scale, and finds the coverage of the
 /// nodes. Throws Error beyond 2^32 nodes.
 Lattice lay_lattice(const Scene& scene, const RayCaster& caster, const Partition& partition, PatchGrids surfaces);
 

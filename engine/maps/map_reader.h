@@ -33,7 +33,7 @@ class MapReader {
     /// As GridReader::visit_photons().
     template <class Visit>
     void visit_photons(const SurfaceGrid& grid, vec3 local, float radius, const Visit& visit) const {
-        GridReader{map_, map_.settings.radius}.visit_photons(grid, local, radius, visit);
+        GridReader{map_}.visit_photons(grid, local, radius, visit);
     }
 
   private:

@@ -17,6 +17,7 @@ constexpr uint block_side = 4;  // cells across a block that is searched at once
 struct Candidate {
     uint patch;
     float radius2, height2;  // m2, how far away and how high above it photons may lie
+    float tolerance;         // m, of that height
     vec3 start, u_step, v_step, half;
 };
 
@@ -29,19 +30,17 @@ struct CellRange {
 class NeighbourTest {
   public:
     NeighbourTest(const std::vector<PatchShape>& shapes, const std::vector<float>& radii, float neighbour_angle_deg)
-        : shapes_(shapes),
-          radii_(radii),
-          largest_(radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end())),
-          cos_angle_(std::cos(glm::radians(neighbour_angle_deg))) {
-        vec3 reach(0);
-        for (const PatchShape& s : shapes) reach = max(reach, max(abs(s.box_low), abs(s.box_high)));
-        margin_ = 1e-3f * largest_ + 4e-6f * std::max({reach.x, reach.y, reach.z});
+        : shapes_(shapes), radii_(radii), cos_angle_(std::cos(glm::radians(neighbour_angle_deg))) {
+        for (size_t p = 0; p < shapes.size(); ++p) {
+            const vec3 reach = max(abs(shapes[p].box_low), abs(shapes[p].box_high));
+            margins_.push_back(1e-3f * radii[p] + 4e-6f * std::max({reach.x, reach.y, reach.z}));
+        }
     }
 
     /// A box that holds all photons that the patch refers to.
     Box searched_box(uint patch) const {
         const PatchShape& s = shapes_[patch];
-        const float reach = radii_[patch] + margin_;
+        const float reach = radii_[patch] + margins_[patch];
         const Box box = bounds(patch, s.low, s.high);
         return {box.low - reach, box.high + reach};
     }
@@ -66,9 +65,10 @@ class NeighbourTest {
         const auto turned = [&](vec3 v) { return vec3(dot(v, to.u_axis), dot(v, to.v_axis), dot(v, to.normal)); };
         const vec3 u = turned(from.u_axis), v = turned(from.v_axis), h = turned(from.normal);
         const vec3 first = from.low + 0.5f * step;
-        Candidate c{other, radii_[other] * radii_[other], 0, {}, u * step.x, v * step.y, {}};
+        Candidate c{other, radii_[other] * radii_[other], 0, 0.01f * radii_[other], {}, u * step.x, v * step.y, {}};
         c.start = to.to_local(from.anchor) + u * first.x + v * first.y + h * first.z - 0.5f * (to.low + to.high);
-        c.half = 0.5f * (to.high - to.low + abs(u) * step.x + abs(v) * step.y + abs(h) * step.z) + margin_;
+        c.half = 0.5f * (to.high - to.low + abs(u) * step.x + abs(v) * step.y + abs(h) * step.z) + margins_[own] +
+                 margins_[other];
         const bool wide = cosine_of_sum(h.z, from.cos_spread) <= 0;
         const float sine = wide ? 1 : sine_of(h.z) * from.cos_spread + h.z * sine_of(from.cos_spread);
         c.height2 = (sine * sine * 1.2f + 2e-3f) * c.radius2;
@@ -83,7 +83,7 @@ class NeighbourTest {
             return std::max(std::abs(local) - std::abs(u) * width - std::abs(v) * depth - c.half[axis], 0.0f);
         };
         const float du = outside(0), dv = outside(1), dh = outside(2);
-        const float height = std::max(dh - 0.01f * largest_, 0.0f);
+        const float height = std::max(dh - c.tolerance, 0.0f);
         return (du * du + dv * dv + dh * dh <= c.radius2) & (height * height <= c.height2);
     }
 
@@ -93,14 +93,14 @@ class NeighbourTest {
 
     const std::vector<PatchShape>& shapes_;
     const std::vector<float>& radii_;
-    float largest_, cos_angle_;
-    float margin_ = 0;  // m, more than the rounding of positions in any frame
+    float cos_angle_;
+    std::vector<float> margins_;  // m, of each patch: more than the rounding of positions around it in any frame
 };
 
 }  // namespace
 
 Neighbours::Neighbours(const std::vector<PatchShape>& shapes, const std::vector<float>& radii,
-                       float neighbour_angle_deg, float cell_size)
+                       float neighbour_angle_deg, const std::vector<float>& cell_sizes)
     : cells_(shapes.size()) {
     const NeighbourTest test(shapes, radii, neighbour_angle_deg);
     std::vector<Box> boxes;
@@ -109,7 +109,7 @@ Neighbours::Neighbours(const std::vector<PatchShape>& shapes, const std::vector<
     parallel_for(shapes.size(), [&](size_t p) {
         const uint own = uint(p);
         PatchCells& grid = cells_[p];
-        const vec3 step = grid.divide(shapes[p], cell_size), low = shapes[p].low;
+        const vec3 step = grid.divide(shapes[p], cell_sizes[p]), low = shapes[p].low;
         std::vector<Candidate> around;
         for (uint y0 = 0; y0 < grid.rows; y0 += block_side)
             for (uint x0 = 0; x0 < grid.columns; x0 += block_side) {

@@ -11,9 +11,10 @@ namespace lw {
 
 class Neighbours {
   public:
-    /// `radii` are the largest that a later search uses, in metres; cells are at most `cell_size` metres wide.
+    /// `radii` are the largest that a later search uses, in metres; the cells of each patch are at most as many metres
+    /// wide as `cell_sizes` says.
     Neighbours(const std::vector<PatchShape>& shapes, const std::vector<float>& radii, float neighbour_angle_deg,
-               float cell_size);
+               const std::vector<float>& cell_sizes);
 
     /// The candidates: all other patches that may refer to a photon at `position` on `patch`, and some that do not.
     std::span<const uint> near(uint patch, vec3 position) const {

@@ -156,12 +156,12 @@ void place_nodes(const SurfaceLattice& lattice, const std::array<vec3, 3>& local
 
 }  // namespace
 
-Nodes lay_nodes(const Scene& scene, const Partition& partition, PatchGrids surfaces, float spacing) {
+Nodes lay_nodes(const Scene& scene, const Partition& partition, PatchGrids surfaces) {
     const auto shape_of = [&](size_t m) -> const PatchShape& { return partition.shapes[surfaces.patches[m]]; };
     uint64_t count = 0;
     for (size_t m = 0; m < surfaces.grids.size(); ++m) {
         SurfaceLattice& lattice = surfaces.grids[m].lattice;
-        lattice = fit_lattice(shape_of(m), surfaces.grids[m], spacing);
+        lattice = fit_lattice(shape_of(m), surfaces.grids[m], partition.node_distances[surfaces.patches[m]]);
         lattice.first_node = uint(count);
         count += uint64_t(lattice.columns) * lattice.rows;
     }

@@ -23,8 +23,8 @@ struct Nodes {
     std::vector<NodePoint> points;  // those of a lattice begin at its first_node
 };
 
-/// Lays a lattice over the patch of every grid, at most `spacing` metres between nodes. A node farther than a cell from
-/// the surface has no point: no look-up ever weighs it. Throws Error beyond 2^32 nodes.
-Nodes lay_nodes(const Scene& scene, const Partition& partition, PatchGrids surfaces, float spacing);
+/// Lays a lattice over the patch of every grid. A node farther than a cell from the surface has no point: no look-up
+/// ever weighs it. Throws Error beyond 2^32 nodes.
+Nodes lay_nodes(const Scene& scene, const Partition& partition, PatchGrids surfaces);
 
 }  // namespace lw

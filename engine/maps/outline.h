@@ -15,7 +15,14 @@ Outline hull_of(Outline points);
 /// The point of a convex outline nearest to `p`: itself when it lies inside.
 vec2 nearest_in_outline(const Outline& outline, vec2 p);
 
-/// `p` moved inwards from every side of a convex outline that is closer than `distance`.
+/// `p` moved inwards until no side of a convex outline is closer than `distance`, if it is as wide as that.
 vec2 inside_outline(const Outline& outline, vec2 p, float distance);
+
+/// The part of a convex outline on the left of the line through `point` along `along`, without edges so short that they
+/// have no direction.
+Outline part_of(const Outline& outline, vec2 point, vec2 along);
+
+/// Its area, m2.
+float area_of(const Outline& outline);
 
 }  // namespace lw

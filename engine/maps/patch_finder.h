@@ -22,7 +22,7 @@ struct NeighbourReference {
 };
 
 /// Finds the patches of one photon after another. A photon belongs to a patch when it lies within the patch's radius of
-/// its triangle (of the box around it, when the patch has several, and within the largest radius of its bounds), when
+/// its triangle (of the boxes around it, when the patch has several), when
 /// its normal is within the angle of the patch's, and when its height over the patch is no more than what the angle
 /// between the two explains: a parallel sheet above or below does not belong, nor does what lies behind a wall: on a
 /// plane, the nearest point of the patch must be in sight.
@@ -42,17 +42,22 @@ class PatchFinder {
 
   private:
     struct PatchBoxes;
+    /// From a photon's own patch to another.
+    struct Sight {
+        uint own, patch;
+    };
 
     vec3 normal_of(const Photon& photon) const;
     bool belongs(vec3 position, vec3 normal, uint patch) const;
     vec3 nearest_point(vec3 position, vec3 local, const PatchShape& shape) const;
-    bool is_in_sight(vec3 position, vec3 normal, uint patch) const;
+    bool is_in_sight(vec3 position, vec3 normal, Sight sight) const;
     bool is_before_the_wall(vec3 position, vec3 normal, uint own) const;
-    bool is_clear(vec3 position, vec3 normal, vec3 way) const;
+    float lift_of(float scale) const;
+    bool is_clear(vec3 position, vec3 normal, vec3 way, float lift) const;
 
     const ReferenceInput in_;
     std::vector<PatchBoxes> boxes_;
-    float largest_, cos_angle_;
+    float cos_angle_;
 };
 
 }  // namespace lw

@@ -13,19 +13,7 @@
 namespace lw {
 namespace {
 
-constexpr float gap_in_patches = 0.004f;        // heights further apart than this are two sheets
-constexpr float needle_in_patches = 1.0f / 64;  // narrower large triangles share a patch too
-
-/// The bin of a direction: one of 54, 3 x 3 on each face of a cube. Axis-aligned normals lie in the centres of bins.
-uint normal_bin(vec3 n) {
-    const vec3 a = abs(n);
-    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-    const float major = std::max(a[axis], 1e-20f);
-    const auto bin = [&](int other) {
-        return uint(clamp(int(std::floor((n[other] / major * 0.5f + 0.5f) * 3)), 0, 2));
-    };
-    return (uint(axis) * 2 + (n[axis] < 0 ? 1 : 0)) * 9 + bin((axis + 1) % 3) * 3 + bin((axis + 2) % 3);
-}
+constexpr float gap_in_scales = 0.024f;  // heights further apart than this are two sheets
 
 struct PatchKey {
     uint object, bin;
@@ -48,9 +36,20 @@ struct HeightSpan {
     float low, high;
 };
 
-/// Splits each group into sheets, such as the boards of a shelf: where the heights of its triangles leave a gap of more
-/// than `gap` m, a new sheet begins.
-Patches split_sheets(const Scene& scene, const Patches& groups, float gap) {
+}  // namespace
+
+uint normal_bin(vec3 n) {
+    const vec3 a = abs(n);
+    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    const float major = std::max(a[axis], 1e-20f);
+    const auto bin = [&](int other) {
+        return uint(clamp(int(std::floor((n[other] / major * 0.5f + 0.5f) * 3)), 0, 2));
+    };
+    return (uint(axis) * 2 + (n[axis] < 0 ? 1 : 0)) * 9 + bin((axis + 1) % 3) * 3 + bin((axis + 2) % 3);
+}
+
+SideGroups split_sheets(const Scene& scene, const SideGroups& grouped) {
+    const Patches& groups = grouped.patches;
     std::vector<glm::dvec3> normals(groups.count, glm::dvec3(0));
     std::vector<HeightSpan> spans(groups.of_side.size());
     const auto corners = [&](size_t side) { return triangle_corners(scene, side / 2); };
@@ -69,19 +68,18 @@ Patches split_sheets(const Scene& scene, const Patches& groups, float gap) {
     parallel_sort(spans.begin(), spans.end(), [](const HeightSpan& x, const HeightSpan& y) {
         return std::tie(x.group, x.low, x.side) < std::tie(y.group, y.low, y.side);
     });
-    Patches sheets;
-    sheets.of_side.resize(spans.size());
+    SideGroups sheets;
+    sheets.patches.of_side.resize(spans.size());
     float top = 0;
     for (size_t i = 0; i < spans.size(); ++i) {
-        const bool fresh = i == 0 || spans[i].group != spans[i - 1].group || spans[i].low > top + gap;
-        if (fresh) ++sheets.count;
+        const float scale = grouped.scales[spans[i].group];
+        const bool fresh = i == 0 || spans[i].group != spans[i - 1].group || spans[i].low > top + gap_in_scales * scale;
+        if (fresh) ++sheets.patches.count, sheets.scales.push_back(scale);
         top = fresh ? spans[i].high : std::max(top, spans[i].high);
-        sheets.of_side[spans[i].side] = sheets.count - 1;
+        sheets.patches.of_side[spans[i].side] = sheets.patches.count - 1;
     }
     return sheets;
 }
-
-}  // namespace
 
 Patches group_triangles(const Scene& scene, float patch_size) {
     Patches patches;
@@ -96,7 +94,7 @@ Patches group_triangles(const Scene& scene, float patch_size) {
         for (uint side = 0; side < 2; ++side) {
             uint& patch = patches.of_side[2 * t + side];
             const float longest = std::max({size.x, size.y, size.z});
-            const bool needle = longest > patch_size && twice_area < needle_in_patches * patch_size * longest;
+            const bool needle = longest > patch_size && is_needle(twice_area, longest, patch_size);
             if (longest > patch_size && !needle) {
                 patch = patches.count++;
                 continue;
@@ -109,7 +107,8 @@ Patches group_triangles(const Scene& scene, float patch_size) {
             patch = place->second;
         }
     }
-    return split_sheets(scene, patches, gap_in_patches * patch_size);
+    const std::vector<float> scales(patches.count, patch_size / patch_size_in_scales);
+    return split_sheets(scene, {std::move(patches), scales}).patches;
 }
 
 namespace {

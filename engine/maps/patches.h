@@ -38,8 +38,35 @@ struct PatchShape {
     vec3 to_scene(vec3 p) const { return anchor + u_axis * p.x + v_axis * p.y + normal * p.z; }
 };
 
+/// Patches with the shape of each, and its scale: the length, m, that all sizes on it follow.
+struct ScaledPatches {
+    Patches patches;
+    std::vector<PatchShape> shapes;
+    std::vector<float> scales;
+};
+
 /// The shape of each patch.
 std::vector<PatchShape> shapes_of(const Scene& scene, const Patches& patches);
+
+/// Groups of triangle sides, and the scale of each, m.
+struct SideGroups {
+    Patches patches;
+    std::vector<float> scales;
+};
+
+constexpr float patch_size_in_scales = 6;  // of a scale that is given (study: 4 to 8)
+
+/// The bin of a direction: one of 54, 3 x 3 on each face of a cube. Axis-aligned normals lie in the centres of bins.
+uint normal_bin(vec3 n);
+
+/// True for a triangle that is longer than a patch but so narrow that it shares one.
+inline bool is_needle(float twice_area, float longest, float patch_size) {
+    return twice_area < patch_size * longest / 64;
+}
+
+/// Splits each group into sheets, such as the boards of a shelf: where the heights of its triangles leave a gap, a new
+/// sheet begins.
+SideGroups split_sheets(const Scene& scene, const SideGroups& grouped);
 
 /// Groups triangle sides whose bounding box is smaller than `patch_size` metres by (object, cell of that size, one of
 /// 54 normal bins), and needles that are longer but narrower than 1/64 of it, by cells of their length; degenerate

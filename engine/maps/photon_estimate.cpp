@@ -19,12 +19,12 @@ vec3 total_of(const std::vector<vec4>& sums, uint lamp) {
 
 std::vector<vec3> estimate_from_photons(const Scene& scene, const Lattice& lattice, const PhotonRecords& photons) {
     const size_t nodes = lattice.nodes.size(), lamps = scene.lights.size();
-    const GridReader reader{photons, lattice.radius};
+    const GridReader reader{photons};
     std::vector<vec3> light(nodes * lamps, vec3(0));
     Progress progress("light of photons", nodes);
     parallel_for(lattice.surfaces.grids.size(), [&](size_t m) {
         const SurfaceGrid& grid = lattice.surfaces.grids[m];
-        const PhotonSums grid_sums(photons, grid, lattice.radius);
+        const PhotonSums grid_sums(photons, grid);
         std::vector<vec4> sums(PhotonSums::sums_per_lamp * lamps);
         const uint end = grid.lattice.first_node + grid.lattice.columns * grid.lattice.rows;
         for (uint node = grid.lattice.first_node; node < end; ++node) {

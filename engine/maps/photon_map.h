@@ -11,7 +11,7 @@ namespace lw {
 /// The settings of a bake. They are stored in the file.
 struct BakeSettings {
     uint64_t photons = 1'000'000;    // stored photons asked for
-    float radius = 0;                // m, largest search radius; 0 in the settings means automatic
+    float radius = 0;                // m, largest search radius; 0: as the surroundings of each surface are near
     float neighbour_angle_deg = 60;  // largest angle between the normals of a photon and a patch that refers to it
     uint64_t seed = 1;
     bool direct_in_photons = false;  // direct light: from photons as in the paper, or exact by shadow rays
@@ -56,7 +56,7 @@ struct PhotonRecords {
 /// the nodes of the lattices keep.
 struct PhotonMap : SurfaceGrids, PhotonRecords {
     uint64_t scene_hash = 0;
-    BakeSettings settings;  // with the radius that was used
+    BakeSettings settings;
     uint64_t stored_photons = 0;
     std::vector<uint64_t> emitted;  // photons emitted per light
     SparseArray caustic_sides;      // when there are caustics, 2 per triangle: their grid or cut + 1, or 0

@@ -19,8 +19,8 @@ int cell_at(float metres, float cell_size, uint count) {
 
 }  // namespace
 
-PhotonSums::PhotonSums(const PhotonRecords& records, const SurfaceGrid& grid, float max_radius)
-    : grid_(grid), starts_(records.cell_starts.data() + grid.first_cell), first_(starts_[0]), max_radius_(max_radius) {
+PhotonSums::PhotonSums(const PhotonRecords& records, const SurfaceGrid& grid)
+    : grid_(grid), starts_(records.cell_starts.data() + grid.first_cell), first_(starts_[0]) {
     const size_t count = starts_[grid.columns * grid.rows] - first_;
     for (std::vector<float>* places : {&u_, &v_, &h_}) places->resize(count);
     fluxes_.resize(count);
@@ -63,11 +63,11 @@ void PhotonSums::add_row(size_t first, size_t last, vec3 local, float inverse_ra
 /// The weights of `count` photons, 0 of those outside the kernel or not on the same surface.
 LW_WIDE_VECTORS void PhotonSums::weigh(size_t first, size_t count, vec3 local, float inverse_radius2,
                                        float* weights) const {
-    const float *u = &u_[first], *v = &v_[first], *h = &h_[first], max_radius = max_radius_;
+    const float *u = &u_[first], *v = &v_[first], *h = &h_[first], search_radius = grid_.radius;
     for (size_t i = 0; i < count; ++i) {
         const float du = u[i] - local.x, dv = v[i] - local.y, dh = h[i] - local.z;
         const float d2 = du * du + dv * dv + dh * dh;
-        weights[i] = kernel_weight(d2 * inverse_radius2) * same_surface_weight(dh, d2, max_radius);
+        weights[i] = kernel_weight(d2 * inverse_radius2) * same_surface_weight(dh, d2, search_radius);
     }
 }
 

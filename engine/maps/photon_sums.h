@@ -14,8 +14,8 @@ class PhotonSums {
     /// for the one before.
     static constexpr size_t sums_per_lamp = 4;
 
-    /// Unpacks the photons of a grid; `max_radius`: the largest search radius of the map, m.
-    PhotonSums(const PhotonRecords& records, const SurfaceGrid& grid, float max_radius);
+    /// Unpacks the photons of a grid, which must outlive the sums.
+    PhotonSums(const PhotonRecords& records, const SurfaceGrid& grid);
 
     /// Adds the flux of the photons within `radius` m of a point (u, v, h of the grid), weighted by kernel_shape(),
     /// to the sums of each lamp; record flux, that is lm times the map's flux scale. The fourth component is unused.
@@ -29,7 +29,6 @@ class PhotonSums {
     const SurfaceGrid& grid_;
     const uint* starts_;  // of the grid's cells
     uint first_;          // reference of the first cell
-    float max_radius_;
     std::vector<float> u_, v_, h_;
     std::vector<vec4> fluxes_;
     std::vector<uint> lamps_;

@@ -11,7 +11,6 @@
 namespace lw {
 namespace {
 
-constexpr double max_references = 2.3;  // per photon, what small patches are tightened to; 2.5 is promised
 constexpr size_t max_tasks = 64;
 constexpr size_t min_task = 8192;
 constexpr uint moved_out = ~0u;  // in place of a photon that its own patch does not keep
@@ -82,28 +81,6 @@ std::vector<Task> find_foreign(const ReferenceInput& input, const PatchFinder& f
 }
 
 }  // namespace
-
-double sample_references(const ReferenceInput& input, size_t samples) {
-    const PatchFinder finder(input);
-    const std::vector<Photon>& photons = input.photons;
-    const size_t step = std::max<size_t>(1, photons.size() / samples), count = photons.size() / step;
-    std::vector<NeighbourReference> found;
-    size_t kept = 0;
-    for (size_t i = 0; i < count; ++i) kept += finder.find(uint(i * step), finder.own_patch(uint(i * step)), found);
-    return count ? double(kept + found.size()) / double(count) : 0;
-}
-
-Partition limit_references(const Scene& scene, const RayCaster& caster, const std::vector<Photon>& photons,
-                           Partition partition) {
-    constexpr size_t sampled = 20000;  // photons
-    float floor = first_floor * partition.radius;
-    for (int tries = 1; tries < 16; ++tries) {
-        if (sample_references({scene, caster, partition, photons}, sampled) < max_references) break;
-        floor *= 0.75f;
-        partition.radii = patch_radii(partition.shapes, partition.radius, floor);
-    }
-    return partition;
-}
 
 References find_references(const ReferenceInput& input) {
     const PatchFinder finder(input);

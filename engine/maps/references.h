@@ -15,11 +15,4 @@ struct References {
 /// All references to the photons, by the rule of PatchFinder.
 References find_references(const ReferenceInput& input);
 
-/// The mean number of references per photon, from about `samples` photons spread over the whole set.
-double sample_references(const ReferenceInput& input, size_t samples);
-
-/// The partition with smaller radii of small patches, until references per photon stay below 2.3.
-Partition limit_references(const Scene& scene, const RayCaster& caster, const std::vector<Photon>& photons,
-                           Partition partition);
-
 }  // namespace lw

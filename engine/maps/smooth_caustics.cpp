@@ -21,7 +21,7 @@ class CausticNodes {
         : surfaces_(scene),
           lattice_(lattice),
           caustics_(caustics),
-          reader_{caustics.records, lattice.radius},
+          reader_{caustics.records},
           irradiance_scale_(irradiance_scale),
           lamps_(uint(scene.lights.size())) {}
 

@@ -14,11 +14,11 @@
 namespace lw {
 namespace {
 
-constexpr float min_wall = 1;        // in radii: shorter things (legs and boards of furniture) cut nothing
-constexpr float tolerance = 0.002f;  // in radii: segments this close to a line lie on it
-constexpr float min_chord = 0.3f;    // radius
-constexpr float max_chord = 8;       // radii
-constexpr float min_round_wall = 1;  // in radii, along the wall
+constexpr float min_wall = 1;        // in scales: shorter things (legs and boards of furniture) cut nothing
+constexpr float tolerance = 0.002f;  // in scales: segments this close to a line lie on it
+constexpr float min_chord = 0.3f;    // scale
+constexpr float max_chord = 8;       // scales
+constexpr float min_round_wall = 1;  // in scales, along the wall
 constexpr float steep = 0.7f;        // largest cosine between the normals of a wall and of the surface it stands on
 constexpr size_t max_lines = 255, max_tried = 512;
 
@@ -29,17 +29,16 @@ struct Segment {
 };
 
 /// True when a patch may be cut: it is plane and not small.
-bool may_be_cut(const PatchShape& shape, float radius) {
+bool may_be_cut(const PatchShape& shape, float scale) {
     const vec3 size = shape.high - shape.low;
-    return shape.cos_spread > 0.999f && size.z <= height_of_cuts(radius) &&
-           std::max(size.x, size.y) > min_wall * radius;
+    return shape.cos_spread > 0.999f && size.z <= height_of_cuts(scale) && std::max(size.x, size.y) > min_wall * scale;
 }
 
 /// Sets `segment` to the line where a triangle stands on a patch: its intersection with a plane a little above the
 /// patch, clipped to the patch and its surroundings. Returns false when there is none.
-bool crossing(const PatchShape& shape, const std::array<vec3, 3>& corners, float radius, Segment& segment) {
+bool crossing(const PatchShape& shape, const std::array<vec3, 3>& corners, float scale, Segment& segment) {
     std::array<vec3, 3> local;
-    const float plane = shape.high.z + height_of_cuts(radius);
+    const float plane = shape.high.z + height_of_cuts(scale);
     for (size_t c = 0; c < 3; ++c) local[c] = shape.to_local(corners[c]) - vec3(0, 0, plane);
     std::array<vec2, 3> ends;
     size_t found = 0;
@@ -51,7 +50,7 @@ bool crossing(const PatchShape& shape, const std::array<vec3, 3>& corners, float
     float first = 0, last = 1;
     const vec2 d = ends[1] - ends[0];
     for (int axis = 0; axis < 2; ++axis) {
-        const float low = shape.low[axis] - radius - ends[0][axis], high = shape.high[axis] + radius - ends[0][axis];
+        const float low = shape.low[axis] - scale - ends[0][axis], high = shape.high[axis] + scale - ends[0][axis];
         if (d[axis] == 0) {
             if (low > 0 || high < 0) return false;
             continue;
@@ -61,17 +60,20 @@ bool crossing(const PatchShape& shape, const std::array<vec3, 3>& corners, float
     }
     if (!(first < last)) return false;
     const vec3 n = edge_product(local[0], local[1], local[2]);  // normal of the wall, which may lean
-    const vec2 foot = vec2(n) * (n.z * height_of_cuts(radius) / std::max(n.x * n.x + n.y * n.y, 1e-30f));
+    const vec2 foot = vec2(n) * (n.z * height_of_cuts(scale) / std::max(n.x * n.x + n.y * n.y, 1e-30f));
     segment.a = ends[0] + d * first + foot, segment.b = ends[0] + d * last + foot;
     return true;
 }
 
 /// All segments along which triangles stand on patches, sorted by patch, the longest first.
-std::vector<Segment> find_segments(const Scene& scene, float radius, const std::vector<PatchShape>& shapes) {
+std::vector<Segment> find_segments(const Scene& scene, const std::vector<float>& scales,
+                                   const std::vector<PatchShape>& shapes) {
     std::vector<Box> slabs;
-    for (const PatchShape& s : shapes) {
-        const bool wanted = may_be_cut(s, radius);
-        const vec3 reach = (abs(s.u_axis) + abs(s.v_axis)) * radius + abs(s.normal) * (2 * height_of_cuts(radius));
+    for (size_t p = 0; p < shapes.size(); ++p) {
+        const PatchShape& s = shapes[p];
+        const float scale = scales[p];
+        const bool wanted = may_be_cut(s, scale);
+        const vec3 reach = (abs(s.u_axis) + abs(s.v_axis)) * scale + abs(s.normal) * (2 * height_of_cuts(scale));
         slabs.push_back(wanted ? Box{s.box_low - reach, s.box_high + reach} : Box{vec3(1e30f), vec3(-1e30f)});
     }
     const BoxSearch search(std::move(slabs));
@@ -85,7 +87,7 @@ std::vector<Segment> find_segments(const Scene& scene, float radius, const std::
             search.overlapping({min(p[0], min(p[1], p[2])), max(p[0], max(p[1], p[2]))}, [&](uint patch) {
                 Segment segment{patch, uint(t), {}, {}};
                 if (std::abs(dot(product, shapes[patch].normal)) < steep * size &&
-                    crossing(shapes[patch], p, radius, segment))
+                    crossing(shapes[patch], p, scales[patch], segment))
                     parts[k].push_back(segment);
             });
         }
@@ -99,22 +101,22 @@ std::vector<Segment> find_segments(const Scene& scene, float radius, const std::
     return segments;
 }
 
-/// The bin of a segment's line, by direction and distance from the origin: 2 degrees and a twentieth of the radius
+/// The bin of a segment's line, by direction and distance from the origin: 2 degrees and a twentieth of the scale
 /// wide.
-glm::ivec2 bin_of(const Segment& s, float radius) {
+glm::ivec2 bin_of(const Segment& s, float scale) {
     vec2 along = s.b - s.a;
     if (along.x < 0 || (along.x == 0 && along.y < 0)) along = -along;
     const float angle = std::atan2(along.y, along.x), size = std::max(length(along), 1e-20f);
     const float offset = (along.x * s.a.y - along.y * s.a.x) / size;
-    return {int(std::round(angle * 28.6f)), int(std::round(clamp(offset / radius * 20, -1e6f, 1e6f)))};
+    return {int(std::round(angle * 28.6f)), int(std::round(clamp(offset / scale * 20, -1e6f, 1e6f)))};
 }
 
 /// Joins overlapping and touching stretches and keeps those of at least `least` m.
-void join_stretches(WallLine& line, float radius, float least) {
+void join_stretches(WallLine& line, float scale, float least) {
     std::sort(line.stretches.begin(), line.stretches.end(), [](vec2 x, vec2 y) { return x.x < y.x; });
     std::vector<vec2> joined;
     for (vec2 s : line.stretches)
-        if (!joined.empty() && s.x <= joined.back().y + 0.02f * radius)
+        if (!joined.empty() && s.x <= joined.back().y + 0.02f * scale)
             joined.back().y = std::max(joined.back().y, s.y);
         else
             joined.push_back(s);
@@ -129,21 +131,27 @@ void join_stretches(WallLine& line, float radius, float least) {
 /// The longest chord from `start` to which the wall that begins there along `ahead` stays close. Found with the cone of
 /// directions that pass all points of the wall (Williams 1978); the chord lies halfway between the points of the wall
 /// on either side.
-WallLine chord_from(std::span<const Segment> segments, const std::vector<char>& taken, vec2 start, vec2 ahead,
-                    float radius) {
-    std::vector<std::array<vec2, 2>> walls;  // the end closer to `start` first
-    for (size_t i = 0; i < segments.size(); ++i) {
-        std::array<vec2, 2> ends{segments[i].a - start, segments[i].b - start};
-        if (length(ends[0]) > length(ends[1])) std::swap(ends[0], ends[1]);
-        if (!taken[i] && dot(ends[1], ahead) > 0 && length(ends[0]) < max_chord * radius) walls.push_back(ends);
+WallLine chord_from(std::span<const Segment> segments, const std::vector<uint>& open, vec2 start, vec2 ahead,
+                    float scale) {
+    struct Wall {
+        float distance2;
+        std::array<vec2, 2> ends;  // the one closer to `start` first
+    };
+    std::vector<Wall> walls;
+    const float farthest2 = max_chord * scale * max_chord * scale;
+    for (uint i : open) {
+        const vec2 a = segments[i].a - start, b = segments[i].b - start;
+        const float a2 = dot(a, a), b2 = dot(b, b);
+        if (std::min(a2, b2) >= farthest2 || dot(a2 > b2 ? a : b, ahead) <= 0) continue;
+        walls.push_back(a2 > b2 ? Wall{b2, {b, a}} : Wall{a2, {a, b}});
     }
-    std::sort(walls.begin(), walls.end(), [](const auto& x, const auto& y) { return length(x[0]) < length(y[0]); });
-    const float width = 2 * width_of_chords(radius);
+    std::sort(walls.begin(), walls.end(), [](const Wall& x, const Wall& y) { return x.distance2 < y.distance2; });
+    const float width = 2 * width_of_chords(scale);
     float right = -0.5f * lw_pi, left = -right, reached = 0;
     WallLine chord{start, ahead, {}, 0, true};
     std::vector<vec2> passed;
-    for (const std::array<vec2, 2>& wall : walls) {
-        if (length(wall[0]) > reached + 0.1f * width) break;
+    for (const auto& [distance2, wall] : walls) {
+        if (std::sqrt(distance2) > reached + 0.1f * width) break;
         const auto angle_of = [&](vec2 p) { return std::atan2(ahead.x * p.y - ahead.y * p.x, dot(ahead, p)); };
         const auto half_angle = [&](vec2 p) { return std::asin(std::min(width / std::max(length(p), width), 1.0f)); };
         const float angle = angle_of(wall[1]);
@@ -163,60 +171,63 @@ WallLine chord_from(std::span<const Segment> segments, const std::vector<char>& 
 }
 
 /// True when the wall of chord x goes on in chord y: they meet at an end, bent by less than 45 degrees.
-bool goes_on(const WallLine& x, const WallLine& y, float radius) {
+bool goes_on(const WallLine& x, const WallLine& y, float scale) {
     if (std::abs(dot(x.along, y.along)) < 0.7f) return false;
     const auto distance_to = [&](vec2 p) {
         const float at = clamp(dot(p - y.point, y.along), y.stretches[0].x, y.stretches[0].y);
         return length(p - y.point - y.along * at);
     };
     return std::min(distance_to(x.point + x.along * x.stretches[0].x),
-                    distance_to(x.point + x.along * x.stretches[0].y)) < 4 * width_of_chords(radius);
+                    distance_to(x.point + x.along * x.stretches[0].y)) < 4 * width_of_chords(scale);
 }
 
 /// Adds chords for the segments that no straight line covers, where they form a long enough wall. Each chord begins
 /// where the one before ends, so that the pieces they cut off lie side by side.
-void add_chords(std::span<const Segment> segments, std::vector<char>& taken, float radius,
+void add_chords(std::span<const Segment> segments, const std::vector<char>& taken, float scale,
                 std::vector<WallLine>& lines) {
     std::vector<WallLine> chords;
+    std::vector<uint> open;  // the segments that no line covers
+    for (uint i = 0; i < segments.size(); ++i)
+        if (!taken[i] && segments[i].a != segments[i].b) open.push_back(i);
+    const auto squared = [](vec2 v) { return dot(v, v); };
     vec2 end = segments[0].a;
-    for (size_t tried = 0; tried < max_tried && lines.size() + chords.size() < max_lines; ++tried) {
-        const Segment* seed = nullptr;
+    for (size_t tried = 0; tried < max_tried && lines.size() + chords.size() < max_lines && !open.empty(); ++tried) {
+        uint first = open[0];
         float least = 1e30f;
-        for (size_t i = 0; i < segments.size(); ++i)
-            if (const Segment& s = segments[i]; !taken[i] && s.a != s.b)
-                if (const float d = std::min(length(s.a - end), length(s.b - end)); d < least) least = d, seed = &s;
-        if (!seed) break;
-        const bool is_turned = length(seed->b - end) < length(seed->a - end);
+        for (uint i : open)
+            if (const float d = std::min(squared(segments[i].a - end), squared(segments[i].b - end)); d < least)
+                least = d, first = i;
+        const Segment* seed = &segments[first];
+        const bool is_turned = squared(seed->b - end) < squared(seed->a - end);
         const vec2 from = is_turned ? seed->b : seed->a, to = is_turned ? seed->a : seed->b;
-        const WallLine chord = chord_from(segments, taken, from, normalize(to - from), radius);
-        taken[size_t(seed - segments.data())] = 1;
-        for (size_t i = 0; i < segments.size(); ++i) {
+        const WallLine chord = chord_from(segments, open, from, normalize(to - from), scale);
+        std::erase_if(open, [&](uint i) {
             const Segment& s = segments[i];
             const float at = dot(0.5f * (s.a + s.b) - chord.point, chord.along);
-            taken[i] |=
-                std::max(std::abs(chord.height(s.a)), std::abs(chord.height(s.b))) <= 2 * width_of_chords(radius) &&
-                at >= 0 && at <= chord.length;
-        }
+            return i == first ||
+                   (std::max(std::abs(chord.height(s.a)), std::abs(chord.height(s.b))) <= 2 * width_of_chords(scale) &&
+                    at >= 0 && at <= chord.length);
+        });
         end = from + chord.along * chord.length;
-        if (chord.length < min_chord * radius) continue;
+        if (chord.length < min_chord * scale) continue;
         chords.push_back(chord);
         chords.back().stretches.emplace_back(0.0f, chord.length);
     }
     for (const WallLine& chord : chords) {
         float wall = 0;
         for (const WallLine& other : chords)  // itself too
-            wall += goes_on(chord, other, radius) ? other.length : 0;
-        if (wall >= min_round_wall * radius) lines.push_back(chord);
+            wall += goes_on(chord, other, scale) ? other.length : 0;
+        if (wall >= min_round_wall * scale) lines.push_back(chord);
     }
 }
 
 /// Finds the lines on which long enough walls stand, from the segments of one patch.
-std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius) {
+std::vector<WallLine> find_lines(std::span<const Segment> segments, float scale) {
     std::unordered_map<uint64_t, float> lengths;
     const auto key = [](glm::ivec2 bin) { return uint64_t(uint(bin.x)) << 32 | uint(bin.y); };
     std::vector<glm::ivec2> bins;
     for (const Segment& s : segments) {
-        bins.push_back(bin_of(s, radius));
+        bins.push_back(bin_of(s, scale));
         lengths[key(bins.back())] += length(s.b - s.a);
     }
     const auto length_around = [&](glm::ivec2 bin) {
@@ -234,13 +245,13 @@ std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius
     for (size_t i = 0; i < segments.size() && tried < max_tried && lines.size() < max_lines; ++i) {
         const vec2 along = segments[i].b - segments[i].a;
         const float size = length(along);
-        if (taken[i] || !(size > 0) || length_around(bins[i]) < min_wall * radius) continue;
+        if (taken[i] || !(size > 0) || length_around(bins[i]) < min_wall * scale) continue;
         ++tried;
         WallLine line{segments[i].a, along / size, {}};
         members.clear();
         for (size_t j = i; j < segments.size(); ++j) {
-            if (taken[j] || std::abs(line.height(segments[j].a)) > tolerance * radius ||
-                std::abs(line.height(segments[j].b)) > tolerance * radius)
+            if (taken[j] || std::abs(line.height(segments[j].a)) > tolerance * scale ||
+                std::abs(line.height(segments[j].b)) > tolerance * scale)
                 continue;
             taken[j] = 1;
             members.push_back(j);
@@ -248,27 +259,28 @@ std::vector<WallLine> find_lines(std::span<const Segment> segments, float radius
                         b = dot(segments[j].b - line.point, line.along);
             line.stretches.emplace_back(std::min(a, b), std::max(a, b));
         }
-        join_stretches(line, radius, min_wall * radius);
+        join_stretches(line, scale, min_wall * scale);
         if (!(line.length > 0)) continue;
         for (size_t j : members) straight[j] = 1;
         lines.push_back(std::move(line));
     }
-    add_chords(segments, straight, radius, lines);
+    add_chords(segments, straight, scale, lines);
     return lines;
 }
 
 }  // namespace
 
-std::vector<WalledPatch> find_walls(const Scene& scene, float radius, const std::vector<PatchShape>& shapes) {
-    const std::vector<Segment> segments = find_segments(scene, radius, shapes);
+std::vector<WalledPatch> find_walls(const Scene& scene, const std::vector<float>& scales,
+                                    const std::vector<PatchShape>& shapes) {
+    const std::vector<Segment> segments = find_segments(scene, scales, shapes);
     std::vector<size_t> starts;
     for (size_t i = 0; i < segments.size(); ++i)
         if (i == 0 || segments[i].patch != segments[i - 1].patch) starts.push_back(i);
     std::vector<WalledPatch> walled(starts.size());
     parallel_for(starts.size(), [&](size_t i) {
         const size_t end = i + 1 < starts.size() ? starts[i + 1] : segments.size();
-        walled[i] = {segments[starts[i]].patch,
-                     find_lines(std::span(segments).subspan(starts[i], end - starts[i]), radius)};
+        walled[i] = {segments[starts[i]].patch, find_lines(std::span(segments).subspan(starts[i], end - starts[i]),
+                                                           scales[segments[starts[i]].patch])};
     });
     std::erase_if(walled, [](const WalledPatch& w) { return w.lines.empty(); });
     return walled;

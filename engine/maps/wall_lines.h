@@ -22,13 +22,14 @@ struct WalledPatch {
 
 /// How far above a surface the walls that stand on it are looked for, m; thinner things lie on it. Light may pass
 /// below.
-inline float height_of_cuts(float radius) { return 0.03f * radius; }
+inline float height_of_cuts(float scale) { return 0.03f * scale; }
 
 /// How far a chord may be from the round wall it stands for, m.
-inline float width_of_chords(float radius) { return 0.02f * radius; }
+inline float width_of_chords(float scale) { return 0.02f * scale; }
 
-/// The patches wider than the search `radius` (m) on which surfaces stand along straight lines of at least that length,
-/// or along round walls as long, at any angle steeper than 45 degrees; at most 255 lines for one.
-std::vector<WalledPatch> find_walls(const Scene& scene, float radius, const std::vector<PatchShape>& shapes);
+/// The patches wider than their scale (m, one for each) on which surfaces stand along straight lines of at least that
+/// length, or along round walls as long, at any angle steeper than 45 degrees; at most 255 lines for one.
+std::vector<WalledPatch> find_walls(const Scene& scene, const std::vector<float>& scales,
+                                    const std::vector<PatchShape>& shapes);
 
 }  // namespace lw

@@ -114,6 +114,11 @@ bool Gatherer::is_resolved(const Seen& seen) const {
     return true;
 }
 
+/// True when a point is so near that it sees how photons are spread.
+bool Gatherer::is_close(const Seen& seen, float distance) const {
+    return seen.at.index != no_grid && distance < 0.5f * seen.at.grid.radius;
+}
+
 /// The surface of a hit, for a ray that comes from unit direction `to_view`.
 auto Gatherer::seen_from(vec3 to_view, const Hit& hit, const Surface& s) const -> Seen {
     const bool front = dot(s.geometric_normal, to_view) >= 0;
@@ -145,10 +150,11 @@ void Gatherer::gather(vec3 origin, vec3 direction, GatherRay& to) const {
         Seen at = seen_from(to_view, *hit, s);
         const bool specular = surfaces_.is_purely_specular(s);
         const bool sharp = !specular && s.metallic > 0.5f && s.roughness < min_gathered_roughness;
-        const bool close = hit->distance < 0.5f * map_.settings.radius || !is_resolved(at);
+        const bool close = is_close(at, hit->distance) || !is_resolved(at);
         const bool walk_on = specular || sharp || close;
         if (!walk_on) {
             add_reflected(at, to);
+            if (at.at.index != no_grid) to.spread = at.at.grid.radius / hit->distance;
             at.surface.roughness = std::max(s.roughness, min_direct_roughness);
         }
         if (!specular && (walk_on || !map_.settings.direct_in_photons))

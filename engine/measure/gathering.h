@@ -29,6 +29,7 @@ struct GatherRay {
     std::vector<vec3>& lamps;  // per lamp: lx for intensity 1, RGB
     PhotonShares& shares;
     Rng& rng;
+    float spread = 0;  // search radius over distance, where photons were used
 };
 
 /// Which lamps are sampled directly at a surface. all: every lamp. without_meshes: not meshes, which the next ray of
@@ -67,6 +68,7 @@ class Gatherer {
     };
 
     Seen seen_from(vec3 to_view, const Hit& hit, const Surface& s) const;
+    bool is_close(const Seen& seen, float distance) const;
     bool is_resolved(const Seen& seen) const;
     void add_emission(const Surface& s, vec3 to_view, float weight, GatherRay& to) const;
     void add_lamps(const Seen& at, LampChoice choice, GatherRay& to) const;

@@ -15,9 +15,9 @@
 namespace lw {
 namespace {
 
-/// Relative bias of the reflected light is taken as this times the search radius over the size of the scene. Measured
-/// against the path tracer (docs/measuring.md): 0.7 % in data/apartment.glb with 200,000 photons.
-constexpr float bias_of_kernels = 0.2f;
+/// Relative bias of the reflected light is taken as this times the mean search radius where rays end, over their
+/// length. Measured against the path tracer (docs/measuring.md): 0.7 % in data/apartment.glb with 200,000 photons.
+constexpr float bias_of_kernels = 0.0175f;
 constexpr float blocked_within = 0.02f;  // m
 constexpr int looks_around = 16;  // of 4 rays each: in a corner a quarter of the view is free, which one look may miss
 constexpr float narrower = 0.5f;  // second kernel radius for caustics over the first; the difference measures blur
@@ -94,6 +94,7 @@ void LightMeter::add_repetition(const Sensor& sensor, uint64_t stream, uint r, c
         std::fill(ray.begin(), ray.end(), vec3(0));
         GatherRay gathering{vec3(to.lux_per_radiance), ray, shares, rng};
         gatherer_.gather(sensor.position, to.direction, gathering);
+        reading.kernel_bias += bias_of_kernels * gathering.spread / float(reading.rays);
         for (uint lamp = 0; lamp < count; ++lamp) {
             sum[lamp] += ray[lamp];
             const ChannelLux lux = gatherer_.file_lux(lamp, ray[lamp]);
@@ -166,7 +167,6 @@ Reading LightMeter::read(const Sensor& asked, size_t index, const MeterSettings&
     const std::vector<ChannelLux> dark(scene_.lights.size(), vec3(0));
     Reading reading{dark, std::vector<ChannelLux>(dark.size() * repetitions, vec3(0)), dark, dark, dark, dark};
     reading.rays = std::max(settings.rays / repetitions, 1u) * repetitions;
-    reading.kernel_bias = bias_of_kernels * map_.settings.radius / scene_.size();
     reading.near_border = is_near_border(surfaces, caster_, sensor);
     reading.at_lamp = is_at_lamp(scene_, sensor);
     Rng blocking(settings.seed, 0, index);

@@ -103,20 +103,20 @@ std::string text_of(const char* format, auto... values) {
     return text;
 }
 
-/// `photons`, or fewer when a bake with so many would take more than `bytes`.
-uint64_t affordable(const Scene& scene, const BakeSettings& before, uint64_t photons, uint64_t bytes) {
-    BakeSettings settings = before;
-    for (settings.photons = photons; settings.photons > before.photons; settings.photons /= 2)
-        if (predict_bake_bytes(scene, settings) <= bytes) break;
+/// The photons of the settings, or fewer when a bake with so many would take more than `bytes`.
+uint64_t affordable(const Scene& scene, const RayCaster& caster, BakeSettings settings, uint64_t bytes) {
+    for (; settings.photons > 1; settings.photons /= 2)
+        if (predict_bake_bytes(scene, caster, settings) <= bytes) break;
     return settings.photons;
 }
 
 void reach_error(const Scene& scene, const RayCaster& caster, PhotonMap& map, const std::vector<Place>& all,
                  const SurveySettings& settings, Survey& survey) {
     for (int tries = 0; tries < 3; ++tries) {
-        const uint64_t needed = photons_needed(map, settings, survey);
-        const uint64_t photons = affordable(scene, map.settings, std::min(needed, settings.max_photons),
-                                            settings.memory > 0 ? settings.memory : available_memory());
+        BakeSettings wanted = map.settings;
+        wanted.photons = std::min(photons_needed(map, settings, survey), settings.max_photons);
+        const uint64_t photons =
+            affordable(scene, caster, wanted, settings.memory > 0 ? settings.memory : available_memory());
         if (photons <= map.stored_photons + map.stored_photons / 50) break;
         map = bake_again(scene, caster, map.settings, photons);
         ++survey.bakes;

@@ -37,21 +37,9 @@ TEST(Build, AreaIsThatOfAllTriangles) {
     EXPECT_EQ(area_of(Scene{}), 0);
 }
 
-TEST(Build, TheAutomaticRadiusIsThatOfADiscOf250Photons) {
-    LabScene lab;
-    lab.add_room(vec3(0), vec3(2, 3, 5), 0.5f);
-    const Scene scene = lab.finish();
-    for (const uint64_t photons : {10'000ull, 1'000'000ull}) {
-        const double r = double(automatic_radius(scene, photons));
-        EXPECT_NEAR(double(photons) / 62 * M_PI * r * r, 250, 0.01);
-    }
-    EXPECT_NEAR(automatic_radius(scene, 1), 0.5 * std::sqrt(4.0 + 9 + 25), 1e-5);  // half the diagonal
-    EXPECT_NEAR(automatic_radius(scene, 0), 0.5 * std::sqrt(4.0 + 9 + 25), 1e-5);
-}
-
-TEST(Build, TheRadiusIsTheAutomaticOneUnlessGiven) {
+TEST(Build, TheRadiusIsKeptIfGiven) {
     const BuiltFloor found(0.01f, false, {}), given(0.01f, false);
-    EXPECT_EQ(found.map.settings.radius, automatic_radius(found.scene, 3600));
+    EXPECT_EQ(found.map.settings.radius, 0);
     EXPECT_EQ(given.map.settings.radius, 0.4f);
 }
 

@@ -41,13 +41,21 @@ float area_of(const std::vector<vec2>& outline) {
     return 0.5f * doubled;
 }
 
+ScaledPatches cut(const Scene& scene) {
+    ScaledPatches scaled;
+    scaled.patches = group_triangles(scene, 6 * radius);
+    scaled.shapes = shapes_of(scene, scaled.patches);
+    scaled.scales.assign(scaled.patches.count, radius);
+    cut_patches(scene, scaled);
+    return scaled;
+}
+
 TEST(Cuts, PiecesTogetherAreTheWhole) {
     const Scene scene = hall();
-    Patches patches = group_triangles(scene, 6 * radius);
-    std::vector<PatchShape> shapes = shapes_of(scene, patches);
-    cut_patches(scene, radius, patches, shapes);
+    const auto [patches, shapes, scales] = cut(scene);
     ASSERT_FALSE(patches.cuts.empty());
     ASSERT_EQ(shapes.size(), patches.count);
+    ASSERT_EQ(scales, std::vector<float>(patches.count, radius));
     float floor = 0;
     for (const PatchShape& shape : shapes)
         if (is_floor(shape)) floor += shape.outline.empty() ? 40.0f : area_of(shape.outline);  // uncut: half of it
@@ -56,9 +64,7 @@ TEST(Cuts, PiecesTogetherAreTheWhole) {
 
 TEST(Cuts, PiecesAreConvexAndLieWithinTheirBoxes) {
     const Scene scene = hall();
-    Patches patches = group_triangles(scene, 6 * radius);
-    std::vector<PatchShape> shapes = shapes_of(scene, patches);
-    cut_patches(scene, radius, patches, shapes);
+    const auto [patches, shapes, scales] = cut(scene);
     for (const PatchShape& shape : shapes)
         for (size_t i = 0; i < shape.outline.size(); ++i) {
             const vec2 p = shape.outline[i], q = shape.outline[(i + 1) % shape.outline.size()],
@@ -70,9 +76,7 @@ TEST(Cuts, PiecesAreConvexAndLieWithinTheirBoxes) {
 
 TEST(Cuts, EveryPointLiesInThePieceWhoseOutlineHoldsIt) {
     const Scene scene = hall();
-    Patches patches = group_triangles(scene, 6 * radius);
-    std::vector<PatchShape> shapes = shapes_of(scene, patches);
-    cut_patches(scene, radius, patches, shapes);
+    const auto [patches, shapes, scales] = cut(scene);
     size_t in_pieces = 0;
     for (size_t i = 0; i < 20'000; ++i) {
         Rng rng(1, 1, i);

@@ -114,7 +114,7 @@ Gathered brute_force(const Baked& baked, uint map, vec3 position, uint k) {
                end = baked.map.cell_starts[grid.first_cell + grid.columns * grid.rows];
     for (uint i = begin; i < end; ++i) {
         const vec3 d = place_in_grid(baked.map.places[i], grid) - local;
-        const float excess = std::max(std::abs(d.z) - 0.01f * baked.map.settings.radius, 0.0f);
+        const float excess = std::max(std::abs(d.z) - 0.01f * grid.radius, 0.0f);
         if (dot(d, d) < grid.radius * grid.radius && excess * excess <= 0.75f * dot(d, d))
             near.emplace_back(dot(d, d), i);
     }

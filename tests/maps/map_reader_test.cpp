@@ -160,7 +160,7 @@ struct SixCells {
     }
     SurfaceGrid grid{};
     PhotonRecords records;
-    GridReader reader{records, 4};
+    GridReader reader{records};
 };
 
 TEST(GridReader, RowsAreClippedToTheGrid) {

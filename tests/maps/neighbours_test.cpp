@@ -40,7 +40,8 @@ TEST(Neighbours, AreNoneInTheMiddleOfAWall) {
     const Scene scene = lab.finish();
     constexpr float radius = 0.25f;
     const Patches patches = group_triangles(scene, 6 * radius);
-    const Neighbours neighbours(shapes_of(scene, patches), std::vector<float>(patches.count, radius), 60, radius);
+    const Neighbours neighbours(shapes_of(scene, patches), std::vector<float>(patches.count, radius), 60,
+                                std::vector<float>(patches.count, radius));
     size_t middle = 0;
     for (int i = 1; i < 40; ++i)
         for (int k = 1; k < 32; ++k) {

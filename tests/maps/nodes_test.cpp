@@ -21,13 +21,19 @@ struct Laid {
         : scene(std::move(made)),
           patches(group_triangles(scene, patch_size)),
           shapes(shapes_of(scene, patches)),
-          laid(lay_nodes(scene, partition(), grids(), step)),
+          laid(lay_nodes(scene, partition(step), grids())),
           grids_of_patches(laid.surfaces.grids),
           nodes(laid.points) {}
 
-    Partition partition() const {
+    Partition partition(float step) const {
         const std::vector<float> radii(patches.count, 1.0f);
-        return {patches, shapes, 1, 60, radii, Neighbours(shapes, radii, 60, 100)};
+        return {.patches = patches,
+                .shapes = shapes,
+                .scales = radii,
+                .node_distances = std::vector<float>(patches.count, step),
+                .neighbour_angle_deg = 60,
+                .radii = radii,
+                .neighbours = Neighbours(shapes, radii, 60, std::vector<float>(patches.count, 100))};
     }
     PatchGrids grids() const {
         PatchGrids surfaces;

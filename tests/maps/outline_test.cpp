@@ -25,6 +25,20 @@ TEST(Outline, PointsNearTheRimMoveInwards) {
     EXPECT_LT(length(inside_outline(rectangle, {1.95f, 0.02f}, 0.2f) - vec2(1.8f, 0.2f)), 1e-6f);
 }
 
+TEST(Outline, PointsInASharpCornerMoveInwardsFromBothSides) {
+    const Outline corner{{0, 0}, {8, 0}, {8, 4}};
+    const vec2 inside = inside_outline(corner, {0.01f, 0}, 0.2f), along(2 / std::sqrt(5.0f), 1 / std::sqrt(5.0f));
+    EXPECT_NEAR(inside.y, 0.2f, 0.004f);
+    EXPECT_NEAR(along.y * inside.x - along.x * inside.y, 0.2f, 0.004f);
+}
+
+TEST(Outline, PartsHaveNoEdgesWithoutADirection) {
+    const Outline whole{{0, 0}, {4, 0}, {4, 2.5f}};
+    const Outline part = part_of(whole, {4 - 1e-6f, 2.5f}, {-4, 2.5f - 1e-6f});  // through a corner, but for rounding
+    ASSERT_EQ(part.size(), 3u);
+    for (size_t i = 0; i < part.size(); ++i) EXPECT_GT(length(part[(i + 1) % part.size()] - part[i]), 0.1f) << i;
+}
+
 TEST(Outline, AHullIsConvexCounterClockwiseAndHoldsAllPoints) {
     for (uint64_t i = 0; i < 200; ++i) {
         Rng rng(1, 1, i);

@@ -41,7 +41,7 @@ struct Searched {
 
     Scene scene;
     RayCaster caster{scene};
-    Partition partition = partition_surfaces(scene, {.radius = radius});
+    Partition partition = partition_surfaces(scene, caster, {.radius = radius});
 };
 
 /// A floor of 8 x 8 m in triangles 0 and 1, and a slope that rises at x = 8 by an angle, in triangles 2 and 3.

@@ -127,7 +127,7 @@ TEST(PhotonGrids, AreNoneWhereNoPhotonIs) {
     lab.add_rectangle("wall", vec3(3, 0, 0), vec3(0, 3, 0), vec3(0, 0, 6), 0.5f);
     const Scene scene = lab.finish();
     const RayCaster caster(scene);
-    const Partition partition = partition_surfaces(scene, {.radius = 0.25f});
+    const Partition partition = partition_surfaces(scene, caster, {.radius = 0.25f});
     ASSERT_EQ(partition.patches.cuts.size(), 2u);  // of the upper sides of both triangles of the floor
     const std::vector<Photon> photons{*photon_below(caster, vec3(2.5f, 1, 1), 0)};
     const SurfaceGrids surfaces = sort_into_grids({scene, caster, partition, photons}, {}).surfaces;

@@ -46,7 +46,7 @@ struct Sheets {
         for (size_t i = 0; i < map.places.size(); ++i) {
             const vec3 d = place_in_grid(map.places[i], map.grids[0]) - local;
             const double weight = 1 - double(dot(d, d)) / (double(radius) * double(radius));
-            if (weight > 0 && on_same_surface(d.z, dot(d, d), map.settings.radius))
+            if (weight > 0 && on_same_surface(d.z, dot(d, d), map.grids[0].radius))
                 sums[light_of(map.places[i])] += weight * glm::dvec3(unpack_rgb9e5(map.fluxes[i]));
         }
         return sums;
@@ -74,7 +74,7 @@ double error_at(const Sheets& sheets, const PhotonSums& sums, vec3 local, float 
 
 TEST(PhotonSums, AreThoseOfAllRecordsOneByOne) {
     const Sheets sheets(30'000);
-    const PhotonSums sums(sheets.map, sheets.map.grids[0], sheets.map.settings.radius);
+    const PhotonSums sums(sheets.map, sheets.map.grids[0]);
     Rng rng(1, 2, 1);
     for (int i = 0; i < 200; ++i) {
         const vec3 local(3 * rng.next() - 0.5f, 5 * rng.next() - 0.5f, 0.15f * rng.next() - 0.02f);
@@ -85,7 +85,7 @@ TEST(PhotonSums, AreThoseOfAllRecordsOneByOne) {
 
 TEST(PhotonSums, AreExactWhereThousandsLieInOneRowOfCells) {
     const Sheets sheets(60'000);
-    const PhotonSums sums(sheets.map, sheets.map.grids[0], sheets.map.settings.radius);
+    const PhotonSums sums(sheets.map, sheets.map.grids[0]);
     const vec3 crowd = vec3(0.72f, 1.02f, 0) - vec3(dot(sheets.map.grids[0].origin, sheets.map.grids[0].u_axis),
                                                     dot(sheets.map.grids[0].origin, sheets.map.grids[0].v_axis), 0);
     const std::array<glm::dvec3, lamps> expected = sheets.sum_all(crowd, 0.1f);
@@ -95,7 +95,7 @@ TEST(PhotonSums, AreExactWhereThousandsLieInOneRowOfCells) {
 
 TEST(PhotonSums, AreAddedToWhatIsThere) {
     const Sheets sheets(3'000);
-    const PhotonSums sums(sheets.map, sheets.map.grids[0], sheets.map.settings.radius);
+    const PhotonSums sums(sheets.map, sheets.map.grids[0]);
     std::vector<vec4> once(PhotonSums::sums_per_lamp * lamps, vec4(0)), twice = once;
     sums.add(vec3(1, 2, 0), 0.3f, once);
     for (int i = 0; i < 2; ++i) sums.add(vec3(1, 2, 0), 0.3f, twice);
@@ -109,7 +109,7 @@ TEST(PhotonSums, AreAddedToWhatIsThere) {
 
 TEST(PhotonSums, AreNothingFarFromAllPhotons) {
     const Sheets sheets(3'000);
-    const PhotonSums sums(sheets.map, sheets.map.grids[0], sheets.map.settings.radius);
+    const PhotonSums sums(sheets.map, sheets.map.grids[0]);
     for (vec3 local : {vec3(-3, 1, 0), vec3(1, 9, 0), vec3(1, 2, 3)}) {
         std::vector<vec4> parts(PhotonSums::sums_per_lamp * lamps, vec4(0));
         sums.add(local, 0.5f, parts);
@@ -129,7 +129,7 @@ TEST(PhotonSums, OfAMillionPhotonsAtOnePlaceAreExact) {
     map.cell_starts = fill_grid(grid, {photon}, std::vector<uint>(count, 0), 0, map).cell_starts;
     map.cell_starts.push_back(uint(count));
     std::vector<vec4> parts(PhotonSums::sums_per_lamp, vec4(0));
-    PhotonSums(map, grid, 0.5f).add(position_in_grid(grid, photon.position), 0.5f, parts);
+    PhotonSums(map, grid).add(position_in_grid(grid, photon.position), 0.5f, parts);
     double sum = 0;
     for (const vec4& part : parts) sum += double(part.x);
     EXPECT_NEAR(sum / (count * double(unpack_rgb9e5(map.fluxes[0]).x)), 1, 1e-4);

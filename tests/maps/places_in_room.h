@@ -14,7 +14,7 @@ namespace lw::test {
 
 struct RoomPatches {
     Scene scene = make_room({10'000, 2});
-    Partition partition = partition_surfaces(scene, {.radius = 0.25f});
+    Partition partition = partition_surfaces(scene, RayCaster(scene), {.radius = 0.25f});
 };
 
 inline const RoomPatches& furnished_room() {
@@ -66,12 +66,12 @@ inline Belonging belonging_of(const RoomPatches& room, const Photon& photon, uin
     const double to_bounds = glm::length(outside(shape.box_low, shape.box_high, p));
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), height = beyond.z;
     const double cos_angle = std::cos(glm::radians(double(room.partition.neighbour_angle_deg))), margin = 1e-4;
-    if (distance > double(room.partition.radii[patch]) + margin || to_bounds > double(room.partition.radius) + margin ||
-        cosine < cos_angle - margin ||
-        height > 0.01 * double(room.partition.radius) + (1.1 * sine + 0.011) * distance + margin)
+    if (distance > double(room.partition.radii[patch]) + margin ||
+        to_bounds > double(room.partition.radii[patch]) + margin || cosine < cos_angle - margin ||
+        height > 0.01 * double(room.partition.radii[patch]) + (1.1 * sine + 0.011) * distance + margin)
         return Belonging::no;
-    const bool is_near =
-        distance < double(room.partition.radii[patch]) - margin && to_bounds < double(room.partition.radius) - margin;
+    const bool is_near = distance < double(room.partition.radii[patch]) - margin &&
+                         to_bounds < double(room.partition.radii[patch]) - margin;
     return is_near && cosine > cos_angle + margin && height <= sine * distance ? Belonging::sure : Belonging::close;
 }
 

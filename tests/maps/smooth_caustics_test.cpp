@@ -49,7 +49,7 @@ struct CausticFloor {
     static constexpr float scale = 8;
     Scene scene = floor_with_two_lamps();
     RayCaster caster{scene};
-    Partition partition = partition_surfaces(scene, {.radius = radius});
+    Partition partition = partition_surfaces(scene, caster, {.radius = radius});
     Lattice lattice;
     SmoothCaustics kept;
 };

@@ -39,7 +39,7 @@ std::vector<Found> lines_on_floor(LabScene& lab) {
     const Patches patches = group_triangles(scene, 6 * radius);
     const std::vector<PatchShape> shapes = shapes_of(scene, patches);
     std::vector<Found> found;
-    for (const WalledPatch& walled : find_walls(scene, radius, shapes)) {
+    for (const WalledPatch& walled : find_walls(scene, std::vector<float>(shapes.size(), radius), shapes)) {
         const PatchShape& shape = shapes[walled.patch];
         if (shape.triangle > 1 || shape.normal.y < 0.9f) continue;
         for (const WallLine& line : walled.lines) {
@@ -88,7 +88,7 @@ TEST(WallLines, AnOpeningPartsTheStretchesOfOneLine) {
     const Patches patches = group_triangles(scene, 6 * radius);
     const std::vector<PatchShape> shapes = shapes_of(scene, patches);
     float longest = 0, sum = 0;
-    for (const WalledPatch& walled : find_walls(scene, radius, shapes)) {
+    for (const WalledPatch& walled : find_walls(scene, std::vector<float>(shapes.size(), radius), shapes)) {
         if (shapes[walled.patch].triangle > 1 || shapes[walled.patch].normal.y < 0.9f) continue;
         for (const WallLine& line : walled.lines) {
             longest = std::max(longest, line.length);

@@ -69,7 +69,7 @@ TEST(Sums, OfSixtyFourMillionEqualPhotonsAreTheirFluxOverTheirArea) {
 TEST(Sums, OfSixteenMillionEqualPhotonsAtALatticeNodeDoNotDrift) {
     const EvenPhotons even(4096);
     const SurfaceGrid& grid = even.map.grids[0];
-    const PhotonSums photons(even.map, grid, even.map.settings.radius);
+    const PhotonSums photons(even.map, grid);
     std::vector<vec4> parts(PhotonSums::sums_per_lamp, vec4(0));
     photons.add(vec3(2, 2, 0), grid.radius, parts);
     double sum = 0;

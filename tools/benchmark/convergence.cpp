@@ -31,6 +31,11 @@ constexpr Series series[] = {
     {"cached, the default", false, gather_mode_cached, 300, false},
 };
 
+/// The radius of a disc that holds 250 photons at their mean density, m.
+float mean_radius(const Scene& scene, uint64_t photons) {
+    return float(std::sqrt(250 * area_of(scene) / (double(lw_pi) * double(photons))));
+}
+
 std::vector<Row> measure_series(const Bench& bench, const Subject& subject, const Series& wanted) {
     const uint64_t most = bench.pick<uint64_t>(500'000, 4'000'000), least = most / 64;
     std::vector<Row> rows;
@@ -39,7 +44,7 @@ std::vector<Row> measure_series(const Bench& bench, const Subject& subject, cons
         bake.photons = photons;
         bake.direct_in_photons = wanted.direct_in_photons;
         if (wanted.widens)
-            bake.radius = automatic_radius(subject.scene, least) * std::pow(float(photons) / float(least), -1.0f / 6);
+            bake.radius = mean_radius(subject.scene, least) * std::pow(float(photons) / float(least), -1.0f / 6);
         const BakedCase baked(subject.scene, bake, bench.folder);
         const ReferenceView view{baked.scene.cameras[0], subject.side, subject.side, subject.samples};
         const Image reference = cached_reference(bench.folder, baked.scene, *baked.caster, view);

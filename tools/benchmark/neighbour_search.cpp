@@ -47,21 +47,22 @@ Floats to_floats(Words w) { return __builtin_convertvector(w, Floats); }
 /// (engine/maps/references.cpp, with the distance to the query for that to the patch) and by which the gather takes it.
 struct Rules {
     const Query& query;
-    float cos_angle, max_radius;
+    float cos_angle, search_radius;
 
     Rules(const Query& q, const PhotonMap& map)
         : query(q),
           cos_angle(std::cos(map.settings.neighbour_angle_deg * lw_pi / 180)),
-          max_radius(map.settings.radius) {}
+          search_radius(map.grids[q.grid].radius) {}
     bool accept(vec3 position, vec3 normal, float distance_squared) const {
         const float cosine = dot(normal, query.normal);
         if (cosine < cos_angle) return false;
         const float height = std::fabs(dot(position - query.position, query.normal));
-        return is_explained(height, cosine, distance_squared) && on_same_surface(height, distance_squared, max_radius);
+        return is_explained(height, cosine, distance_squared) &&
+               on_same_surface(height, distance_squared, search_radius);
     }
     /// A sheet above or below is no part of the surface unless it is turned against it.
     bool is_explained(float height, float cosine, float distance_squared) const {
-        const float excess = std::max(height - 0.01f * max_radius, 0.0f);
+        const float excess = std::max(height - 0.01f * search_radius, 0.0f);
         const float sine_squared = 1.2f * std::max(0.0f, 1 - cosine * cosine) + 1e-4f;
         return excess * excess <= sine_squared * distance_squared;
     }
@@ -181,7 +182,7 @@ NearestPhotons::Entry* GridSearch::collect_run(const Disc& disc, uint first, uin
                                                NearestPhotons::Entry* found) const {
     const auto& [grid, local, radius] = disc;
     const float radius_squared = radius * radius;
-    const float tolerance = 0.01f * map_.settings.radius;  // of on_same_surface(), written out for vectors
+    const float tolerance = 0.01f * grid.radius;  // of on_same_surface(), written out for vectors
     uint i = first;
     for (; i + 4 <= last; i += 4) {
         Words low, high;  // u and v of a photon, its height and lamp, then the next one's
@@ -203,7 +204,7 @@ NearestPhotons::Entry* GridSearch::collect_run(const Disc& disc, uint first, uin
         const vec3 d = place_in_grid(map_.places[i], grid) - local;
         const float d2 = dot(d, d);
         *found = {d2, i};
-        found += (d2 < radius_squared) & on_same_surface(d.z, d2, map_.settings.radius);
+        found += (d2 < radius_squared) & on_same_surface(d.z, d2, grid.radius);
     }
     return found;
 }
@@ -245,7 +246,7 @@ void GridTreeSearch::find(const Query& query, NearestPhotons& nearest) const {
     search(*trees_[query.grid], &local.x, nearest, [&](uint index, float& distance_squared) {
         const float height = points[index].z - local.z;
         distance_squared += height * height;
-        return on_same_surface(height, distance_squared, map_.settings.radius);
+        return on_same_surface(height, distance_squared, grid.radius);
     });
 }
 
