@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/program.h"
 #include "base/replaced_file.h"
+#include "daylight_options.h"
 #include "image/exr.h"
 #include "image/light_check.h"
 #include "image/picture_size.h"
@@ -26,6 +27,7 @@ struct Options {
     std::vector<std::string> powers, photometry;
     unsigned threads = 0;
     lw::ReferenceSettings settings;
+    lw::DaylightOptions daylight;
 };
 
 lw::WantedSize size_of(const Options& options) { return lw::parse_picture_size(options.size, 1, 16384); }
@@ -36,7 +38,7 @@ std::string misuse_of(const Options& options) {
     if (size_of(options).width == 0) return "--size: must be WxH in pixels, at most 16384 each";
     for (const std::string& power : options.powers)
         if (power.find('=') == std::string::npos) return "--power: must be LIGHT=FACTOR";
-    return "";
+    return lw::misuse_of(options.daylight);
 }
 
 void render(Options& options) {
@@ -45,7 +47,10 @@ void render(Options& options) {
     options.settings.width = int(size.width), options.settings.height = int(size.height);
     if (options.settings.samples == 0)
         options.settings.samples = options.settings.seconds > 0 || options.settings.error > 0 ? 1u << 20 : 256;
-    const lw::Scene scene = lw::load_scene(options.scene, options.photometry);
+    const std::unique_ptr<const lw::Daylight> around = lw::make_daylight(options.daylight);
+    options.settings.daylight = around.get();
+    lw::Scene scene = lw::load_scene(options.scene, options.photometry, {.needs_lamp = !around});
+    if (!options.daylight.weather.empty()) scene.files.push_back(options.daylight.weather);
     for (const std::string& warning : scene.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
     lw::check_can_create(options.output, scene.files);
     lw::check_reference_fits(options.settings, lw::available_memory());
@@ -94,6 +99,7 @@ int main(int argc, char** argv) {
                    "the scene")
         ->capture_default_str()
         ->check(lw::finite_number(0, 1e6));
+    lw::add_daylight(app, options.daylight);
     lw::add_ambiance(app, options.ambiance);
     lw::add_seed(app, options.settings.seed);
     lw::add_photometry(app, options.photometry);

@@ -41,7 +41,8 @@ double sample_at(const PathTracer& tracer, const Sensor& sensor, vec3 place, con
 
 std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& powers,
                                   std::span<const Sensor> sensors, const TraceSettings& settings) {
-    const PathTracer tracer(scene, caster, powers);
+    const std::optional<SkySampler> sky = sky_around(scene, settings.daylight);
+    const PathTracer tracer(scene, caster, powers, sky ? &*sky : nullptr);
     const SurfaceReader surfaces(scene);
     const bool with_caustics = has_caustics(scene, powers);
     const uint64_t sets = with_caustics ? sets_of_caustics : 1;

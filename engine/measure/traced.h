@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "daylight/daylight.h"
 #include "measure/sensor.h"
 #include "trace/ray_caster.h"
 
@@ -18,6 +19,7 @@ struct Traced {
 struct TraceSettings {
     uint64_t paths = 10'000;  // per sensor
     uint64_t seed = 1;
+    const Daylight* daylight = nullptr;  // around the scene; nullptr: darkness
 };
 
 /// Path traces the illuminance at each sensor. `powers`: RGB power of each lamp (lamp_powers()). Sensors that lie on

@@ -26,6 +26,10 @@ Scene load_gltf(const std::filesystem::path& path, const GltfSettings& settings)
     load_materials(file, scene);
     const std::vector<size_t> object_nodes = load_geometry(file, nodes, scene);
     load_lights(file, nodes, object_nodes, scene);
+    if (settings.needs_lamp && scene.lights.empty())
+        file.fail(
+            "the scene has no light: add a point, spot or sun lamp (KHR_lights_punctual) or give a mesh an emissive "
+            "material");
     load_cameras(file, nodes, scene);
     scene.content_hash = content_hash(scene);
     scene.warnings.insert(scene.warnings.begin(), file.warnings.begin(), file.warnings.end());

@@ -169,13 +169,9 @@ void load_lights(GltfFile& file, const std::vector<PlacedNode>& nodes, const std
         add_profile_light(file, at, known, scene);
     }
     add_mesh_lights(file, nodes, object_nodes, scene);
-    if (scene.lights.empty())
-        file.fail(
-            "the scene has no light: add a point, spot or sun lamp (KHR_lights_punctual) or give a mesh an emissive "
-            "material");
     make_unique(scene.light_names);
     warn_of_large_colors(file);
-    warn_if_not_photometric(file, scene);
+    if (!scene.lights.empty()) warn_if_not_photometric(file, scene);
 }
 
 }  // namespace lw

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/gltf.h"
 #include "scene/profile.h"
 
 namespace lw {
@@ -21,14 +20,15 @@ std::vector<std::string> photometry_texts(const LampPresets& presets, const std:
 }
 
 Scene load_scene(const std::filesystem::path& path, const LampPresets& presets,
-                 const std::vector<std::string>& photometry) {
-    Scene scene = with_photometry(load_gltf(path), photometry_texts(presets, path, photometry));
+                 const std::vector<std::string>& photometry, const GltfSettings& settings) {
+    Scene scene = with_photometry(load_gltf(path, settings), photometry_texts(presets, path, photometry));
     scene.files.push_back(default_ambiances_path(path));
     return scene;
 }
 
-Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry) {
-    return load_scene(path, load_lamp_presets(default_ambiances_path(path)), photometry);
+Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry,
+                 const GltfSettings& settings) {
+    return load_scene(path, load_lamp_presets(default_ambiances_path(path)), photometry, settings);
 }
 
 }  // namespace lw

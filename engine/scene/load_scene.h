@@ -2,6 +2,7 @@
 // put on its lamps.
 #pragma once
 #include "scene/ambiance.h"
+#include "scene/gltf.h"
 
 namespace lw {
 
@@ -11,9 +12,10 @@ std::vector<std::string> photometry_texts(const LampPresets& presets, const std:
 
 /// load_gltf() with the files of photometry_texts() on its lamps. Throws Error as load_gltf() and with_photometry().
 Scene load_scene(const std::filesystem::path& path, const LampPresets& presets,
-                 const std::vector<std::string>& photometry);
+                 const std::vector<std::string>& photometry, const GltfSettings& settings = {});
 
 /// The same with the presets beside the scene. Throws Error, too, when that file is malformed.
-Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry);
+Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& photometry,
+                 const GltfSettings& settings = {});
 
 }  // namespace lw

@@ -12,8 +12,6 @@ namespace {
 constexpr int depth_of_roulette = 5;
 constexpr int max_path = 1000;
 
-float power_heuristic(float a, float b) { return a * a / (a * a + b * b); }
-
 }  // namespace
 
 /// A vertex of a path: the surface there, and its normals on the side from which the path came.
@@ -28,24 +26,38 @@ struct PathTracer::Vertex {
     vec3 to_view, n, ng;
 };
 
-PathTracer::PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> powers)
-    : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), powers_(std::move(powers)) {}
+PathTracer::PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> powers, const SkySampler* sky)
+    : scene_(scene), caster_(caster), surfaces_(scene), emitters_(scene), powers_(std::move(powers)), sky_(sky) {}
 
 vec3 PathTracer::direct_from(uint light, const Vertex& at, Rng& rng) const {
     const float u = rng.next(), v = rng.next();
-    const std::optional<Incident> in = emitters_.arrive(light, at.s.position, u, v);
+    std::optional<Incident> in = emitters_.arrive(light, at.s.position, u, v);
     if (!in) return vec3(0);
-    const float cosine = dot(in->to_light, at.n), side = dot(in->to_light, at.ng);
+    in->radiance = powers_[light] * in->radiance;
+    return reflected(at, *in, has_surface(scene_.lights[light].type));
+}
+
+vec3 PathTracer::reflected(const Vertex& at, const Incident& in, bool path_may_meet_it) const {
+    const float cosine = dot(in.to_light, at.n), side = dot(in.to_light, at.ng);
     if (!(cosine * side > 0)) return vec3(0);
-    const vec3 f = surfaces_.eval_bsdf(at.s, at.n, at.to_view, in->to_light);
+    const vec3 f = surfaces_.eval_bsdf(at.s, at.n, at.to_view, in.to_light);
     if (f.x + f.y + f.z <= 0) return vec3(0);
     const vec3 start = caster_.offset(at.s.position, side > 0 ? at.ng : -at.ng);
-    const vec3 passed = caster_.transmittance(start, in->position);
-    vec3 light_in = powers_[light] * in->radiance * passed * f * std::abs(cosine);
-    if (in->pdf > 0) light_in /= in->pdf;
-    if (has_surface(scene_.lights[light].type))  // the path may meet it too
-        light_in *= power_heuristic(in->pdf, bsdf_pdf(surfaces_, at.s, at.to_view, in->to_light));
+    const vec3 passed = caster_.transmittance(start, in.position);
+    vec3 light_in = in.radiance * passed * f * std::abs(cosine);
+    if (in.pdf > 0) light_in /= in.pdf;
+    if (path_may_meet_it) light_in *= power_heuristic(in.pdf, bsdf_pdf(surfaces_, at.s, at.to_view, in.to_light));
     return light_in;
+}
+
+vec3 PathTracer::daylight(const Vertex& at, Rng& rng) const {
+    const float cell = rng.next(), u = rng.next(), v = rng.next();
+    vec3 sum = reflected(at, sky_->arrive(at.s.position, {cell, u, v}), true);
+    if (sky_->has_sun()) {
+        const float r = rng.next(), turn = rng.next();
+        sum += reflected(at, sky_->arrive_from_sun(at.s.position, r, turn), true);
+    }
+    return sum;
 }
 
 vec3 PathTracer::direct(const Vertex& at, bool all_lamps, Rng& rng) const {
@@ -65,7 +77,10 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, cons
     bool scattered = !first, by_mirror = false;  // has met a surface that shows caustics, and what casts them after it
     for (int depth = 0; depth < max_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
-        if (!hit) break;
+        if (!hit) {
+            if (sky_) sum += throughput * sky_->radiance(direction, pdf);
+            break;
+        }
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
         const Vertex at(s, -direction);
         throughput *= surfaces_.passed_by_medium(absorption_before(surfaces_, s, direction, medium), hit->distance);
@@ -81,6 +96,7 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, cons
         }
         const bool casts = caustics && casts_caustics(s);
         if (!(casts && scattered)) sum += throughput * direct(at, depth == 0, rng);
+        if (sky_) sum += throughput * daylight(at, rng);
         if (caustics) sum += throughput * caustics->reflected(surfaces_, s, at.n, at.ng, at.to_view);
 
         const std::optional<Scatter> next = sample_bsdf(surfaces_, s, at.to_view, Carries::radiance, rng);
@@ -118,7 +134,9 @@ vec3 PathTracer::irradiance(vec3 point, vec3 normal, Rng& rng, const Caustics* c
     white.roughness = 1;
     white.ior = 1.5f;
     white.light = -1;
-    vec3 sum = direct(Vertex(white, normal), true, rng) * lw_pi;
+    const Vertex at(white, normal);
+    vec3 sum = direct(at, true, rng) * lw_pi;
+    if (sky_) sum += daylight(at, rng) * lw_pi;
     if (caustics) sum += caustics->irradiance(point, normal);
     const float u = rng.next(), v = rng.next();
     const vec3 direction = frame_around(normal) * sample_cosine(u, v);

@@ -1,6 +1,7 @@
 // The reference: unbiased radiance and illuminance by path tracing with light sampling and multiple importance sampling
 // (Veach 1997), from the same scene, lamps and BSDF as the photons, but none of their estimators. Light that comes from
-// lamps by way of mirrors and lenses is hardly found by paths from the eye; trace/caustics adds it.
+// lamps by way of mirrors and lenses is hardly found by paths from the eye; trace/caustics adds it. Daylight comes to
+// all rays that leave the scene; that by way of mirrors and lenses is found by paths alone.
 #pragma once
 #include <vector>
 
@@ -8,13 +9,15 @@
 #include "trace/caustics.h"
 #include "trace/emitter.h"
 #include "trace/ray_caster.h"
+#include "trace/sky_sampler.h"
 
 namespace lw {
 
 class PathTracer {
   public:
-    /// `powers`: RGB power of each lamp (lamp_powers()). All references must outlive the tracer.
-    PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> powers);
+    /// `powers`: RGB power of each lamp (lamp_powers()). `sky`: nullptr for a scene without daylight. All that is
+    /// referred to must outlive the tracer.
+    PathTracer(const Scene& scene, const RayCaster& caster, std::vector<vec3> powers, const SkySampler* sky = nullptr);
 
     /// One sample of the radiance that arrives at `origin` from unit `direction`, cd/m2 per RGB. Unbiased except for
     /// caustics: without `caustics` those of points and suns are missing; with a set, all are blurred over its radius.
@@ -27,6 +30,8 @@ class PathTracer {
     struct Vertex;
     vec3 direct(const Vertex& at, bool all_lamps, Rng& rng) const;
     vec3 direct_from(uint light, const Vertex& at, Rng& rng) const;
+    vec3 daylight(const Vertex& at, Rng& rng) const;
+    vec3 reflected(const Vertex& at, const Incident& in, bool path_may_meet_it) const;
     vec3 follow(vec3 origin, vec3 direction, float bsdf_pdf, bool first, const Caustics* caustics, Rng& rng) const;
 
     const Scene& scene_;
@@ -34,6 +39,7 @@ class PathTracer {
     SurfaceReader surfaces_;
     Emitters emitters_;
     std::vector<vec3> powers_;
+    const SkySampler* sky_;
 };
 
 }  // namespace lw

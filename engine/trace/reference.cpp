@@ -103,7 +103,8 @@ void check_reference_fits(const ReferenceSettings& settings, uint64_t available)
 
 Reference render_reference(const Scene& scene, const RayCaster& caster, const Camera& camera,
                            const std::vector<vec3>& powers, const ReferenceSettings& settings) {
-    const PathTracer tracer(scene, caster, powers);
+    const std::optional<SkySampler> sky = sky_around(scene, settings.daylight);
+    const PathTracer tracer(scene, caster, powers, sky ? &*sky : nullptr);
     const SurfaceReader surfaces(scene);
     const size_t count = size_t(settings.width) * size_t(settings.height);
     std::vector<PixelSum> pixels(count);

@@ -17,6 +17,7 @@ struct ReferenceSettings {
     uint64_t seed = 1;
     uint64_t caustic_paths = 200'000;  // from the lamps per sample, in scenes with caustics; 0 leaves caustics out
     float caustic_radius = 0;  // m, radius of the kernel for caustics in the first sample; 0: 0.4 % of the scene's size
+    const Daylight* daylight = nullptr;  // around the scene; nullptr: darkness
 };
 
 struct Reference {

@@ -33,6 +33,10 @@ inline vec3 direction_of(float cosine, float v) {
     return {sine * std::cos(phi), sine * std::sin(phi), cosine};
 }
 
+/// The weight of a sample drawn with density `a` that another strategy draws with density `b` (Veach 1997,
+/// section 9.2).
+inline float power_heuristic(float a, float b) { return a * a / (a * a + b * b); }
+
 /// Element `index`, dimension 0 to 4, of the Sobol sequence with Owen scrambling, in [0, 1): direction numbers of Joe &
 /// Kuo (2008), hash-based scrambling of Burley (2020). Sequences of different `seed` are independent.
 float sobol_owen(uint32_t index, int dimension, uint32_t seed);
