@@ -56,8 +56,8 @@ TEST(CieSky, IsAsTheStandardDefinesIt) {
     }
 }
 
-/// What gendaymtx of Radiance 6.0a makes of a line of a weather file (-O0, dew point 11 degrees, sky alone or sun
-/// alone).
+/// A sky of each class of clearness and a dim one: what gendaymtx of Radiance 6.0a makes of a line of a weather file
+/// (-O0, dew point 11 degrees, sky alone or sun alone).
 struct FromRadiance {
     double altitude, azimuth, direct_normal, diffuse_horizontal, eccentricity;  // what is given
     double direct_lux;
@@ -68,6 +68,11 @@ constexpr FromRadiance radiance_skies[] = {
     {59.9736, 137.8981, 750, 130, 1.01669, 77412, {1.1564, 1.4858, 1.3675, 1.3914, .6311, .54, 2.9433, .6562}},
     {26.1077, 244.8315, 200, 250, 1.00711, 17896, {1.017, 1.0171, 1.6659, .9986, 4.7899, 4.7008, .8721, 1.1293}},
     {64.1193, 197.1372, 880, 80, 1.01711, 91245, {1.4145, 1.2437, 1.7629, .8673, 1.1188, 1.0525, .8816, .8244}},
+    {64.3368, 198.3556, 400, 300, 1.01669, 38676, {.4277, .4534, .6443, .5111, .9178, .9853, .864, .8389}},
+    {31.3539, 133.9350, 50, 200, .99607, 4632, {1.2382, 2.6886, 1.8945, 5.4913, 1.2339, 1.0121, 1.8673, .8472}},
+    {28.5181, 116.9259, 500, 120, 1.00018, 47508, {2.2729, 7.4129, 2.5482, 12.2813, 1.2063, .9881, 1.9706, .8572}},
+    {53.8668, 145.6693, 200, 220, 1.00885, 19441, {.7751, 1.1014, 1.1386, 1.5895, .7516, .6456, 2.3589, .6982}},
+    {23.1906, 154.0110, 30, 45, .98649, 2703, {2.6773, 3.6759, 5.5498, 5.7875, 2.0744, 1.4549, 1.5704, .9241}},
     {34.0188, 176.6011, 0, 150, 0.99852, 0, {.5645, .6473, .754, .7903, .9154, .9469, 1.018, .9745}}};
 
 TEST(PerezSky, IsThatOfRadiance) {
