@@ -30,17 +30,21 @@ std::string verdict_of(const MeasuredSet& measured, const Statistics& statistics
     return name_of(judge(statistics, find_task(measured.set.task)).both());
 }
 
+/// The place of a sensor in the world, its direction and its kind.
+std::string place_of(const Sensor& sensor, const Scene& scene) {
+    const glm::dvec3 at = glm::dvec3(sensor.position) + scene.origin;
+    return format("%.6g,%.6g,%.6g,%.4g,%.4g,%.4g,", at.x, at.y, at.z, double(sensor.normal.x), double(sensor.normal.y),
+                  double(sensor.normal.z)) +
+           name_of(sensor.response);
+}
+
 std::string row_of(const MeasuredSet& measured, size_t i, size_t a, const Survey& survey, const Scene& scene) {
     const AmbianceFactors& ambiance = survey.ambiances[a];
-    const Sensor& sensor = measured.set.sensors[i];
     const Reading& reading = measured.readings[i];
     const Value value = value_of(reading, ambiance.factors, survey.maintenance);
-    const glm::dvec3 at = glm::dvec3(sensor.position) + scene.origin;
     std::string row = quoted(measured.set.name) + "," + name_of(measured.set.kind) + "," +
-                      quoted(name_of_sensor(measured.set, i)) +
-                      format(",%.6g,%.6g,%.6g,%.4g,%.4g,%.4g,", at.x, at.y, at.z, double(sensor.normal.x),
-                             double(sensor.normal.y), double(sensor.normal.z)) +
-                      name_of(sensor.response) + "," + quoted(ambiance.name) +
+                      quoted(name_of_sensor(measured.set, i)) + "," + place_of(measured.set.sensors[i], scene) + "," +
+                      quoted(ambiance.name) +
                       format(",%.5g,%.5g,%.5g,%.3g,%.3g,", value.lux, std::max(value.lux - value.half_width, 0.0),
                              value.lux + value.half_width, value.ray_error, value.photon_error);
     row += format("%.0f,", value.photons) + quoted(value.doubt);
@@ -62,6 +66,16 @@ std::string name_of_sensor(const SensorSet& set, size_t i) {
     if (i < set.sensor_names.size()) return set.sensor_names[i];
     if (set.kind != SensorSet::Kind::grid) return std::to_string(i + 1);
     return std::to_string(i / set.grid.columns + 1) + "," + std::to_string(i % set.grid.columns + 1);
+}
+
+std::string traced_heading() { return "field,sensor,x,y,z,nx,ny,nz,response,lux,standard_error\n"; }
+
+std::string traced_as_csv(const SensorSet& set, const std::vector<Traced>& traced, const Scene& scene) {
+    std::string text;
+    for (size_t i = 0; i < traced.size(); ++i)
+        text += quoted(set.name) + "," + quoted(name_of_sensor(set, i)) + "," + place_of(set.sensors[i], scene) +
+                format(",%.5g,%.3g\n", traced[i].lux, traced[i].standard_error);
+    return text;
 }
 
 std::string sensors_as_csv(const Survey& survey, const Scene& scene) {

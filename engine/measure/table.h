@@ -17,6 +17,11 @@ std::string sensors_as_csv(const Survey& survey, const Scene& scene);
 /// Emax, U0, Ud, each with its half width, then required and verdict.
 std::string fields_as_csv(const Survey& survey);
 
+/// CSV of a set of sensors that the path tracer read (measure/traced.h), one row per sensor, with the columns
+/// field,sensor,x,y,z,nx,ny,nz,response,lux,standard_error. Without the row of their names, traced_heading().
+std::string traced_as_csv(const SensorSet& set, const std::vector<Traced>& traced, const Scene& scene);
+std::string traced_heading();
+
 /// The same as lines of text for a terminal.
 std::string fields_as_text(const Survey& survey);
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "image/exr.h"
 #include "programs/command_lines.h"
@@ -29,6 +30,32 @@ TEST(DaylightPrograms, ASceneWithoutALampIsLitByTheSky) {
     const Image lit = read_exr(picture);
     const std::vector<float>& green = lit.find("G")->values;
     EXPECT_GT(*std::max_element(green.begin(), green.end()), 100);
+}
+
+TEST(DaylightPrograms, PointsInTheOpenAreLitByAllOfTheSky) {
+    const TempFolder folder;
+    const std::string scene = scene_without_lamp(folder), csv = folder / "lux.csv";
+    write_text(folder / "points.csv", "name,x,y,z\nfar,300,2,0\nside,300,2,0,0,0,-1\n");
+    const Words words{scene,   "--points", folder / "points.csv", "--csv", csv,        "--paths", "20000",
+                      "--sky", "uniform",  "--diffuse",           "10000", "--direct", "0",       "--ground-albedo",
+                      "0.5"};
+    const Outcome outcome = run("reference", words);
+    expect_success(outcome);
+    std::istringstream rows(read_text(csv));
+    std::string heading, far, side;
+    std::getline(rows, heading), std::getline(rows, far), std::getline(rows, side);
+    EXPECT_EQ(heading, "field,sensor,x,y,z,nx,ny,nz,response,lux,standard_error");
+    const auto lux_in = [](std::string row) {
+        for (int column = 0; column < 9; ++column) row = row.substr(row.find(',') + 1);
+        return std::stod(row);
+    };
+    EXPECT_NEAR(lux_in(far), 10'000, 100);
+    EXPECT_NEAR(lux_in(side), 5000 + 2500, 100);
+    EXPECT_EQ(far.rfind("points,far,300,2,0,0,1,0,planar,", 0), 0u) << far;
+    EXPECT_EQ(run("reference", {scene, "--csv", csv, "-o", folder / "a.exr"}).exit_code, 2);
+    expect_refusal(run("reference", {scene, "--sky", "uniform", "--diffuse", "1", "--points", folder / "points.csv",
+                                     "--csv", folder / "points.csv"}),
+                   "points.csv");
 }
 
 TEST(DaylightPrograms, OptionsThatDoNotGoTogetherAreMisuse) {
