@@ -41,10 +41,11 @@ double sample_at(const PathTracer& tracer, const Sensor& sensor, vec3 place, con
 
 std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, const std::vector<vec3>& powers,
                                   std::span<const Sensor> sensors, const TraceSettings& settings) {
-    const std::optional<SkySampler> sky = sky_around(scene, settings.daylight);
-    const PathTracer tracer(scene, caster, powers, sky ? &*sky : nullptr);
+    const std::optional<SkySampler> around = sky_around(scene, settings.daylight);
+    const SkySampler* sky = around ? &*around : nullptr;
+    const PathTracer tracer(scene, caster, powers, sky);
     const SurfaceReader surfaces(scene);
-    const bool with_caustics = has_caustics(scene, powers);
+    const bool with_caustics = has_caustics(scene, powers, sky);
     const uint64_t sets = with_caustics ? sets_of_caustics : 1;
     const uint64_t paths = std::max<uint64_t>((settings.paths + sets - 1) / sets, 1);
     std::vector<Sum> sums(sensors.size()), of_sets(sensors.size());
@@ -53,7 +54,7 @@ std::vector<Traced> trace_sensors(const Scene& scene, const RayCaster& caster, c
         std::optional<Caustics> caustics;
         if (with_caustics) {
             const float radius = caustic_radius * scene.size() / std::sqrt(float(set + 1));
-            caustics.emplace(scene, caster, powers, CausticSettings{paths_per_set, radius, settings.seed, set});
+            caustics.emplace(scene, caster, powers, CausticSettings{paths_per_set, radius, settings.seed, set, sky});
         }
         parallel_for(sensors.size(), [&](size_t i) {
             const Sensor sensor = lifted(surfaces, caster, sensors[i]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "shaders/color.h"
@@ -28,11 +29,9 @@ class CausticPath {
   public:
     CausticPath(const Scene& scene, const RayCaster& caster) : caster_(caster), surfaces_(scene), emitters_(scene) {}
 
-    float unit_flux(uint light) const { return emitters_.unit_flux(light); }
+    const Emitters& emitters() const { return emitters_; }
 
-    void trace(uint light, vec3 weight, const std::array<float, 5>& numbers, Rng& rng,
-               std::vector<Caustics::Arrival>& arrivals) const {
-        const Emission emission = emitters_.emit(light, numbers);
+    void trace(const Emission& emission, vec3 weight, Rng& rng, std::vector<Caustics::Arrival>& arrivals) const {
         vec3 flux = emission.flux * weight, origin = caster_.offset(emission.origin, emission.normal),
              direction = emission.direction, medium(0);
         bool direct = true;
@@ -71,15 +70,21 @@ class CausticPath {
     Emitters emitters_;
 };
 
-/// The number of paths of each lamp, about `wanted` in all, in proportion to the lamps' flux.
+/// The number of paths of each lamp and, last, of the sun, about as many in all as the settings ask for: half for the
+/// sun, which would leave none to the lamps by its flux, the others in proportion to the flux.
 std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, std::span<const vec3> powers,
-                                  uint64_t wanted) {
-    std::vector<double> flux(scene.lights.size(), 0);
-    double sum = 0;
-    for (uint i = 0; i < flux.size(); ++i) sum += flux[i] = precise_luminance(powers[i]) * double(path.unit_flux(i));
+                                  const CausticSettings& settings) {
+    std::vector<double> flux;
+    for (uint i = 0; i < scene.lights.size(); ++i)
+        flux.push_back(precise_luminance(powers[i]) * double(path.emitters().unit_flux(i)));
+    double sum = std::accumulate(flux.begin(), flux.end(), 0.0);
+    if (settings.sky && settings.sky->has_sun()) {
+        flux.push_back(sum > 0 ? sum : 1);
+        sum += flux.back();
+    }
     std::vector<uint64_t> paths(flux.size(), 0);
     for (size_t i = 0; i < flux.size(); ++i)
-        if (flux[i] > 0) paths[i] = 1 + uint64_t(double(wanted) * flux[i] / sum);
+        if (flux[i] > 0) paths[i] = 1 + uint64_t(double(settings.paths) * flux[i] / sum);
     return paths;
 }
 
@@ -87,13 +92,14 @@ std::vector<uint64_t> share_paths(const CausticPath& path, const Scene& scene, s
 
 bool casts_caustics(const Surface& s) { return is_polished(s); }
 
-bool has_caustics(const Scene& scene, std::span<const vec3> powers) {
+bool has_caustics(const Scene& scene, std::span<const vec3> powers, const SkySampler* sky) {
     const auto is_specular = [](const Material& m) {
         const bool varies = m.metallic_roughness_texture.texture >= 0 || m.transmission_texture.texture >= 0;
         const bool smooth = varies || m.roughness * m.roughness < min_alpha;
         return is_polished(m) || (smooth && (m.metallic > 0 || m.specular > 0 || m.transmission > 0));
     };
     if (std::none_of(scene.materials.begin(), scene.materials.end(), is_specular)) return false;
+    if (sky && sky->has_sun()) return true;
     return std::any_of(powers.begin(), powers.end(), [](vec3 weight) { return precise_luminance(weight) > 0; });
 }
 
@@ -101,12 +107,12 @@ Caustics::Caustics(const Scene& scene, const RayCaster& caster, std::span<const 
                    const CausticSettings& settings)
     : radius_(settings.radius) {
     struct Task {
-        uint light;
+        uint light;  // its index; of the sun the number of lamps
         uint64_t first, last, of;
         std::vector<Arrival> arrivals;
     };
     const CausticPath path(scene, caster);
-    const std::vector<uint64_t> paths = share_paths(path, scene, powers, settings.paths);
+    const std::vector<uint64_t> paths = share_paths(path, scene, powers, settings);
     std::vector<Task> tasks;
     for (uint light = 0; light < paths.size(); ++light)
         for (uint64_t i = 0; i < paths[light]; i += paths_per_task)
@@ -114,12 +120,14 @@ Caustics::Caustics(const Scene& scene, const RayCaster& caster, std::span<const 
     const auto scramble = uint32_t(mix64(settings.seed * 0x10001 + settings.set));
     parallel_for(tasks.size(), [&](size_t t) {
         Task& task = tasks[t];
-        const vec3 weight = powers[task.light] / float(task.of);
+        const bool is_sun = task.light == scene.lights.size();
+        const vec3 weight = (is_sun ? vec3(1) : powers[task.light]) / float(task.of);
         for (uint64_t i = task.first; i < task.last; ++i) {
             Rng rng(settings.seed ^ 0xca05, (settings.set << 14) + task.light, i);
             std::array<float, 5> numbers;
             for (int d = 0; d < 5; ++d) numbers[size_t(d)] = sobol_owen(uint32_t(i), d, scramble + task.light);
-            path.trace(task.light, weight, numbers, rng, task.arrivals);
+            path.trace(is_sun ? settings.sky->emit_from_sun(numbers) : path.emitters().emit(task.light, numbers),
+                       weight, rng, task.arrivals);
         }
     });
     std::vector<Arrival> all;

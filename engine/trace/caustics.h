@@ -1,31 +1,33 @@
-// Light that reaches surfaces from lamps by way of mirrors, polished metal and glass alone. Paths from the eye find it
-// rarely or never, so it is traced from the lamps and estimated with a small kernel. The mean over many independent
-// sets with shrinking radii converges to the truth (memoryless progressive photon mapping, Knaus & Zwicker 2011). Used
-// by the reference path tracer, not by the maps.
+// Light that reaches surfaces from lamps and the sun by way of mirrors, polished metal and glass alone. Paths from the
+// eye find it rarely or never, so it is traced from the lamps and estimated with a small kernel. The mean over many
+// independent sets with shrinking radii converges to the truth (memoryless progressive photon mapping, Knaus & Zwicker
+// 2011). Used by the reference path tracer, not by the maps.
 #pragma once
 #include <span>
 #include <vector>
 
 #include "trace/emitter.h"
 #include "trace/ray_caster.h"
+#include "trace/sky_sampler.h"
 
 namespace lw {
 
 /// How one set of caustic paths is traced.
 struct CausticSettings {
-    uint64_t paths = 200'000;  // of all lamps together
+    uint64_t paths = 200'000;  // of all lamps and the sun together
     float radius = 0;          // m, of the kernel
     uint64_t seed = 1;
-    uint64_t set = 0;  // number of the set; sets of different numbers are independent
+    uint64_t set = 0;                 // number of the set; sets of different numbers are independent
+    const SkySampler* sky = nullptr;  // whose sun shines too
 };
 
 /// True for a surface whose only lobes are so narrow that light sampling hardly finds a lamp through them. Light by way
 /// of such surfaces is traced from the lamps.
 bool casts_caustics(const Surface& s);
 
-/// True when a lamp has power and a material is, or by its textures may be, a mirror, smooth glass, or polished metal
-/// or glass. `powers`: RGB power of each lamp.
-bool has_caustics(const Scene& scene, std::span<const vec3> powers);
+/// True when a lamp or the sun of `sky` has power and a material is, or by its textures may be, a mirror, smooth glass,
+/// or polished metal or glass. `powers`: RGB power of each lamp.
+bool has_caustics(const Scene& scene, std::span<const vec3> powers, const SkySampler* sky = nullptr);
 
 /// One set of caustic light: the arrivals at surfaces that cast no caustics, of paths that met only such as do.
 class Caustics {

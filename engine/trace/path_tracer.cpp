@@ -50,10 +50,10 @@ vec3 PathTracer::reflected(const Vertex& at, const Incident& in, bool path_may_m
     return light_in;
 }
 
-vec3 PathTracer::daylight(const Vertex& at, Rng& rng) const {
+vec3 PathTracer::daylight(const Vertex& at, bool with_sun, Rng& rng) const {
     const float cell = rng.next(), u = rng.next(), v = rng.next();
     vec3 sum = reflected(at, sky_->arrive(at.s.position, {cell, u, v}), true);
-    if (sky_->has_sun()) {
+    if (with_sun && sky_->has_sun()) {
         const float r = rng.next(), turn = rng.next();
         sum += reflected(at, sky_->arrive_from_sun(at.s.position, r, turn), true);
     }
@@ -78,7 +78,7 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, cons
     for (int depth = 0; depth < max_path; ++depth) {
         const std::optional<Hit> hit = caster_.nearest(origin, direction, rng);
         if (!hit) {
-            if (sky_) sum += throughput * sky_->radiance(direction, pdf);
+            if (sky_) sum += throughput * sky_->radiance(direction, pdf, !(caustics && scattered && by_mirror));
             break;
         }
         const Surface s = surfaces_.surface_at(hit->triangle, hit->barycentrics);
@@ -96,7 +96,7 @@ vec3 PathTracer::follow(vec3 origin, vec3 direction, float pdf, bool first, cons
         }
         const bool casts = caustics && casts_caustics(s);
         if (!(casts && scattered)) sum += throughput * direct(at, depth == 0, rng);
-        if (sky_) sum += throughput * daylight(at, rng);
+        if (sky_) sum += throughput * daylight(at, !(casts && scattered), rng);
         if (caustics) sum += throughput * caustics->reflected(surfaces_, s, at.n, at.ng, at.to_view);
 
         const std::optional<Scatter> next = sample_bsdf(surfaces_, s, at.to_view, Carries::radiance, rng);
@@ -136,7 +136,7 @@ vec3 PathTracer::irradiance(vec3 point, vec3 normal, Rng& rng, const Caustics* c
     white.light = -1;
     const Vertex at(white, normal);
     vec3 sum = direct(at, true, rng) * lw_pi;
-    if (sky_) sum += daylight(at, rng) * lw_pi;
+    if (sky_) sum += daylight(at, true, rng) * lw_pi;
     if (caustics) sum += caustics->irradiance(point, normal);
     const float u = rng.next(), v = rng.next();
     const vec3 direction = frame_around(normal) * sample_cosine(u, v);

@@ -1,7 +1,7 @@
 // The reference: unbiased radiance and illuminance by path tracing with light sampling and multiple importance sampling
 // (Veach 1997), from the same scene, lamps and BSDF as the photons, but none of their estimators. Light that comes from
-// lamps by way of mirrors and lenses is hardly found by paths from the eye; trace/caustics adds it. Daylight comes to
-// all rays that leave the scene; that by way of mirrors and lenses is found by paths alone.
+// lamps and the sun by way of mirrors and lenses is hardly found by paths from the eye; trace/caustics adds it. Sky and
+// ground are seen by all rays that leave the scene.
 #pragma once
 #include <vector>
 
@@ -21,6 +21,7 @@ class PathTracer {
 
     /// One sample of the radiance that arrives at `origin` from unit `direction`, cd/m2 per RGB. Unbiased except for
     /// caustics: without `caustics` those of points and suns are missing; with a set, all are blurred over its radius.
+    /// A set must have been traced with the sky of this tracer.
     vec3 radiance(vec3 origin, vec3 direction, Rng& rng, const Caustics* caustics = nullptr) const;
 
     /// One sample of the irradiance at `point` on the side of unit `normal`, lux per RGB; caustics as above.
@@ -30,7 +31,7 @@ class PathTracer {
     struct Vertex;
     vec3 direct(const Vertex& at, bool all_lamps, Rng& rng) const;
     vec3 direct_from(uint light, const Vertex& at, Rng& rng) const;
-    vec3 daylight(const Vertex& at, Rng& rng) const;
+    vec3 daylight(const Vertex& at, bool with_sun, Rng& rng) const;
     vec3 reflected(const Vertex& at, const Incident& in, bool path_may_meet_it) const;
     vec3 follow(vec3 origin, vec3 direction, float bsdf_pdf, bool first, const Caustics* caustics, Rng& rng) const;
 

@@ -103,8 +103,9 @@ void check_reference_fits(const ReferenceSettings& settings, uint64_t available)
 
 Reference render_reference(const Scene& scene, const RayCaster& caster, const Camera& camera,
                            const std::vector<vec3>& powers, const ReferenceSettings& settings) {
-    const std::optional<SkySampler> sky = sky_around(scene, settings.daylight);
-    const PathTracer tracer(scene, caster, powers, sky ? &*sky : nullptr);
+    const std::optional<SkySampler> around = sky_around(scene, settings.daylight);
+    const SkySampler* sky = around ? &*around : nullptr;
+    const PathTracer tracer(scene, caster, powers, sky);
     const SurfaceReader surfaces(scene);
     const size_t count = size_t(settings.width) * size_t(settings.height);
     std::vector<PixelSum> pixels(count);
@@ -125,7 +126,7 @@ Reference render_reference(const Scene& scene, const RayCaster& caster, const Ca
     const auto start = std::chrono::steady_clock::now();
     Progress progress("reference", settings.samples * count);
     Reference result;
-    const bool with_caustics = settings.caustic_paths > 0 && has_caustics(scene, powers);
+    const bool with_caustics = settings.caustic_paths > 0 && has_caustics(scene, powers, sky);
     CausticRadii radii(settings.caustic_radius > 0 ? settings.caustic_radius : 0.004f * scene.size());
     std::optional<Caustics> caustics;
     while (result.samples < settings.samples) {
@@ -133,7 +134,7 @@ Reference render_reference(const Scene& scene, const RayCaster& caster, const Ca
         const uint64_t pass = std::min<uint64_t>(settings.samples - result.samples, most);
         if (with_caustics)
             caustics.emplace(scene, caster, powers,
-                             CausticSettings{settings.caustic_paths, radii.next(), settings.seed, result.samples});
+                             CausticSettings{settings.caustic_paths, radii.next(), settings.seed, result.samples, sky});
         const Caustics* light = caustics ? &*caustics : nullptr;
         parallel_for(size_t(settings.height), [&](size_t row) {
             for (size_t i = row * size_t(settings.width); i < (row + 1) * size_t(settings.width); ++i)

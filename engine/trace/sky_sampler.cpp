@@ -66,13 +66,24 @@ Incident SkySampler::arrive(vec3 point, vec3 u) const {
     return incident(point, direction, daylight_.radiance(direction), pdf(direction));
 }
 
-Incident SkySampler::arrive_from_sun(vec3 point, float u, float v) const {
+/// Uniform over the disc.
+vec3 SkySampler::direction_to_sun(float u, float v) const {
     // Uniform in 1 - cos, which keeps the precision that the cosine of so small an angle loses.
     const float below_one = u * float(1 - Daylight::sun_cosine), sine = std::sqrt(below_one * (2 - below_one));
     const float turn = 2 * lw_pi * v;
-    const vec3 direction =
-        frame_around(daylight_.to_sun()) * vec3(sine * std::cos(turn), sine * std::sin(turn), 1 - below_one);
+    return frame_around(daylight_.to_sun()) * vec3(sine * std::cos(turn), sine * std::sin(turn), 1 - below_one);
+}
+
+Incident SkySampler::arrive_from_sun(vec3 point, float u, float v) const {
+    const vec3 direction = direction_to_sun(u, v);
     return incident(point, direction, direction.y < 0 ? vec3(0) : daylight_.sun_radiance(), sun_pdf);
+}
+
+Emission SkySampler::emit_from_sun(const std::array<float, 5>& u) const {
+    const vec3 direction = -direction_to_sun(u[2], u[3]);
+    const vec2 disc = sample_disc(u[0], u[1]) * radius_;
+    const vec3 flux = direction.y > 0 ? vec3(0) : daylight_.sun_radiance() * (lw_pi * radius_ * radius_ / sun_pdf);
+    return {centre_ + frame_around(direction) * vec3(disc.x, disc.y, -radius_), vec3(0), direction, flux};
 }
 
 float SkySampler::pdf(vec3 direction) const {
@@ -80,10 +91,10 @@ float SkySampler::pdf(vec3 direction) const {
     return (ends_[cell] - (cell > 0 ? ends_[cell - 1] : 0)) / (ends_.back() * cell_solid_angle);
 }
 
-vec3 SkySampler::radiance(vec3 direction, float path_pdf) const {
+vec3 SkySampler::radiance(vec3 direction, float path_pdf, bool with_sun) const {
     const auto weight = [&](float own_pdf) { return path_pdf > 0 ? power_heuristic(path_pdf, own_pdf) : 1.0f; };
     vec3 sum = daylight_.radiance(direction) * weight(pdf(direction));
-    if (has_sun() && daylight_.is_sun(direction)) sum += daylight_.sun_radiance() * weight(sun_pdf);
+    if (with_sun && has_sun() && daylight_.is_sun(direction)) sum += daylight_.sun_radiance() * weight(sun_pdf);
     return sum;
 }
 

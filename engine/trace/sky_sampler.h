@@ -22,15 +22,21 @@ class SkySampler {
     /// Samples light of the sun that arrives at `point`, uniform over its disc. Only with has_sun().
     Incident arrive_from_sun(vec3 point, float u, float v) const;
 
+    /// A photon of the sun, its flux that of all sunlight through a sphere around the scene. `u` picks place and
+    /// direction, each number in [0, 1).
+    Emission emit_from_sun(const std::array<float, 5>& u) const;
+
     /// cd/m2 from the unit direction of a path that left the scene, weighted against the samples above. `path_pdf`: per
     /// sr, the density with which the path took the direction; 0 when no samples were taken at its last vertex.
-    vec3 radiance(vec3 direction, float path_pdf) const;
+    /// Without `with_sun` the sun's disc is left out.
+    vec3 radiance(vec3 direction, float path_pdf, bool with_sun = true) const;
 
     /// Density per sr with which arrive() picks a direction.
     float pdf(vec3 direction) const;
 
   private:
     Incident incident(vec3 point, vec3 direction, vec3 radiance, float pdf) const;
+    vec3 direction_to_sun(float u, float v) const;
 
     const Daylight& daylight_;
     vec3 centre_;   // of the scene, m

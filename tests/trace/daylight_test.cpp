@@ -136,6 +136,29 @@ TEST(Daylight, OfASunHalfBehindAnEdgeIsHalf) {
     expect_lux(lux_at_origin(lab.finish(), light, {0, 1, 0}), 20'000 * 0.5 / 2, "half a sun");
 }
 
+TEST(Daylight, OfTheSunByAMirrorAddsToThatOfTheSun) {
+    DaylightSettings settings = sky(5, 0, 20'000, 45);
+    settings.azimuth = 90, settings.ground_albedo = 0;
+    const Daylight light(settings);
+    LabScene lab;
+    lab.add_rectangle("floor", {0, 0, -20}, {0, 0, 40}, {40, 0, 0}, 0);
+    lab.add_rectangle("mirror", {0, 0, -20}, {0, 40, 0}, {0, 0, 40}, 1);
+    Scene scene = lab.finish();
+    scene.materials.back().metallic = 1, scene.materials.back().roughness = 0;
+    const RayCaster caster(scene);
+    const SkySampler sampler(scene, light);
+    ASSERT_TRUE(has_caustics(scene, {}, &sampler));
+    const Caustics caustics(scene, caster, {}, {1'000'000, 2, 1, 0, &sampler});
+    const PathTracer tracer(scene, caster, {}, &sampler);
+    double lux = 0;
+    constexpr int paths = 20'000;
+    for (int i = 0; i < paths; ++i) {
+        Rng rng(7, 8, uint64_t(i));
+        lux += precise_luminance(tracer.irradiance({10, 0.001f, 0}, {0, 1, 0}, rng, &caustics)) / paths;
+    }
+    EXPECT_NEAR(lux, 2 * 20'000 * std::sqrt(0.5), 0.02 * 2 * 20'000 * std::sqrt(0.5));
+}
+
 TEST(SkySampler, PicksDirectionsWithTheDensityItTells) {
     const Scene scene = open_field();
     const Daylight light(sky(13, 10'000, 0, 20));
