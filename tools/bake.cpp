@@ -136,8 +136,8 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::Range(uint64_t(1), uint64_t(2'000'000'000)));
     app.add_option("--radius", options.radius,
-                   "metres, the largest distance from which photons count at a point, or auto: what the scene and "
-                   "--photons need")
+                   "metres, the largest distance from which photons count at a point, or auto: what the "
+                   "surroundings of each surface need")
         ->capture_default_str()
         ->check(misuse_of_radius);
     app.add_option("--neighbour-angle", options.neighbour_angle_deg,

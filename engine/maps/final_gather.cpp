@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/parallel.h"
-#include "maps/grid_reader.h"
+#include "maps/photon_estimate.h"
 #include "maps/seen_light.h"
 #include "maps/smoothing.h"
 #include "scene/surface.h"
@@ -172,7 +172,7 @@ class NodeGather {
     vec3 gathered(uint m, uint node, float limit) const {
         const SurfaceGrid& grid = in_.lattice.surfaces.grids[m];
         const vec3 local = node_in_grid(in_.lattice, grid, node);
-        const float radius = reader_.bandwidth_from_counts(grid, local), r2 = radius * radius;
+        const float radius = bandwidth_at_node(reader_, grid, local), r2 = radius * radius;
         vec3 sum(0);
         float photons = 0;
         reader_.visit_photons(grid, local, radius, [&](uint reference, PhotonPlace, float d2) {

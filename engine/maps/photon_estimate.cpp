@@ -4,7 +4,6 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "maps/grid_reader.h"
 #include "maps/photon_sums.h"
 
 namespace lw {
@@ -15,7 +14,14 @@ vec3 total_of(const std::vector<vec4>& sums, uint lamp) {
     return vec3((part[0] + part[1]) + (part[2] + part[3]));
 }
 
+constexpr float least_in_steps = 0.75f;
+
 }  // namespace
+
+float bandwidth_at_node(const GridReader& reader, const SurfaceGrid& grid, vec3 local) {
+    const float least = least_in_steps * std::max(grid.lattice.step.x, grid.lattice.step.y);
+    return std::min(std::max(reader.bandwidth_from_counts(grid, local), least), grid.radius);
+}
 
 std::vector<vec3> estimate_from_photons(const Scene& scene, const Lattice& lattice, const PhotonRecords& photons) {
     const size_t nodes = lattice.nodes.size(), lamps = scene.lights.size();
@@ -31,7 +37,7 @@ std::vector<vec3> estimate_from_photons(const Scene& scene, const Lattice& latti
             if (!lattice.nodes[node].exists()) continue;
             std::fill(sums.begin(), sums.end(), vec4(0));
             const vec3 local = node_in_grid(lattice, grid, node);
-            const float radius = reader.bandwidth_from_counts(grid, local);
+            const float radius = bandwidth_at_node(reader, grid, local);
             grid_sums.add(local, radius, sums);
             const float covered = std::max(unpack_coverage(lattice.coverage[node], radius / grid.radius), min_coverage);
             const float share = kernel_peak(radius * radius) / (photons.flux_scale * covered);
